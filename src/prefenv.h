@@ -1,0 +1,236 @@
+/* prefenv.h - glossy reflection of a prefiltered environment: the public interface of libprefenv.
+ *
+ * FRAME.  POV-Ray's: left-handed, +y up.  A lat-long environment of width W and height H is oriented as
+ * POV-Ray's `image_map { ... map_type 1 }`: column x of texel centres lies at u = (x + 1/2) / W with
+ * u = atan2(z, x) / 2 pi (so +x at u = 0, +z at u = 1/4), row y at v = (y + 1/2) / H, v = 0 at +y and v = 1 at -y.
+ * Seen from inside the sphere such a picture is mirrored, as it is in POV-Ray.
+ *
+ * UNITS.  Radiance is linear, scene-referred RGB.  Angles are in radians.  `alpha` is the microfacet width of the
+ * normal distribution (its slope's root mean square times sqrt 2), not a perceptual roughness.
+ * Directions point away from the surface.  n: surface normal.  o: direction to the viewer.  r = 2 (o.n) n - o.
+ *
+ * TANGENTS.  A brush direction d gives t = normalize(d - (d.n) n) and b = n x t; alpha_x is the width along t,
+ * alpha_y the width along b.  Where n is parallel to d, any perpendicular serves.
+ *
+ * ERRORS.  Every call that can fail returns a pe_status and takes a pe_error, which may be NULL; it receives the
+ * status and one sentence that names file, field and value.  On failure nothing is stored in the outputs.  The
+ * library never prints, never exits and keeps no globals.  What is validated on load cannot fail later.
+ *
+ * THREADS.  Objects are immutable once made: any number of threads may read one.  The results of every function
+ * are the same bits for any number of threads.
+ *
+ * Keys such as [Motegi Eq. 5] are listed in REFERENCES.md.
+ */
+#ifndef PREFENV_H
+#define PREFENV_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PE_VERSION "0.1.0"
+
+/* ---- status ------------------------------------------------------------------------------------------------- */
+
+typedef enum pe_status {
+    PE_OK = 0,
+    PE_ERROR_ARGUMENT,  /* a value given by the caller is out of range */
+    PE_ERROR_FILE,      /* a file cannot be opened, read, written or renamed */
+    PE_ERROR_FORMAT,    /* the bytes are not what they should be */
+    PE_ERROR_LIMIT,     /* larger than this library is willing to handle */
+    PE_ERROR_MEMORY,    /* out of memory */
+    PE_ERROR_CANCELLED  /* the progress function asked to stop */
+} pe_status;
+
+typedef struct pe_error {
+    pe_status status;
+    char message[512]; /* one sentence, no newline, no trailing stop */
+} pe_error;
+
+/* Called now and then, from the calling thread only, with fraction in [0, 1].  Return non-zero to cancel. */
+typedef int pe_progress(double fraction, void *data);
+
+/* ---- images ------------------------------------------------------------------------------------------------- */
+
+#define PE_IMAGE_TEXELS_MAX (16384u * 8192u)
+
+/* A picture of any kind: height rows from the top, width texels from the left, three floats each, linear RGB. */
+typedef struct pe_image {
+    int width, height;
+    float *rgb;   /* 3 * width * height floats */
+    float *alpha; /* width * height floats in [0, 1], or NULL if the file has no alpha channel */
+} pe_image;
+
+/* Reads OpenEXR (every pixel type, storage and compression; RGB, RGBA or Y), Radiance HDR or PNG (8 and 16 bit,
+ * sRGB or the file's own gamma made linear), told apart by their first bytes.  Values are as in the file: NaN and
+ * infinities stay.  The memory form reads from bytes; `name` is used in messages only.  Release with pe_image_free. */
+pe_status pe_image_read(const char *path, pe_image *image, pe_error *error);
+pe_status pe_image_read_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
+
+/* Writes an 8-bit RGB PNG: linear values are clipped to [0, 1] and encoded as sRGB.  The file appears whole or not at
+ * all: it is written beside its target and renamed. */
+pe_status pe_image_write_png(const char *path, const pe_image *image, pe_error *error);
+
+void pe_image_free(pe_image *image); /* frees what the picture holds, not the struct; NULL is allowed */
+
+/* The sRGB transfer function of IEC 61966-2-1: linear to encoded, both in [0, 1]; arguments outside are clipped. */
+double pe_srgb_encode(double linear);
+double pe_srgb_decode(double encoded);
+
+/* ---- environments ------------------------------------------------------------------------------------------- */
+
+/* A lat-long environment: radiance from every direction. */
+typedef struct pe_env pe_env;
+
+/* Reads what pe_image_read reads.  NaN, infinite and negative values are repaired (0; a positive infinity becomes the
+ * largest finite value of its channel) and counted: see pe_env_repairs. */
+pe_status pe_env_read(const char *path, pe_env **env, pe_error *error);
+pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, pe_env **env, pe_error *error);
+
+/* Copies 3 * width * height floats, rows from +y down; repairs as pe_env_read does. */
+pe_status pe_env_create(int width, int height, const float *rgb, pe_env **env, pe_error *error);
+
+void pe_env_free(pe_env *env); /* NULL is allowed */
+
+int pe_env_width(const pe_env *env);
+int pe_env_height(const pe_env *env);
+const float *pe_env_texels(const pe_env *env); /* 3 * width * height floats, rows from +y down */
+const char *pe_env_name(const pe_env *env);    /* the file's name without its folder; "" if made from memory */
+size_t pe_env_repairs(const pe_env *env);      /* texels repaired on load */
+
+/* Radiance from `direction` (any length but zero), bilinear between texel centres, over the poles and around. */
+void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);
+
+/* Direction (unit) of the point (u, v) of a lat-long map, and back: u in [0, 1), v in [0, 1]. */
+void pe_latlong_direction(double u, double v, double direction[3]);
+void pe_latlong_coordinates(const double direction[3], double *u, double *v);
+
+/* ---- normal distributions ----------------------------------------------------------------------------------- */
+
+typedef enum pe_ndf_kind {
+    PE_NDF_BECKMANN = 0 /* [Motegi Eq. 6] */
+} pe_ndf_kind;
+
+/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX]. */
+typedef struct pe_ndf {
+    pe_ndf_kind kind;
+    double alpha_x, alpha_y;
+} pe_ndf;
+
+#define PE_ALPHA_MIN 0.001
+#define PE_ALPHA_MAX 2.0
+
+pe_status pe_ndf_check(const pe_ndf *ndf, pe_error *error);
+
+/* D(h) in 1/sr, h a unit vector in the tangent frame (t, b, n); 0 where h.n <= 0.  [Motegi Eq. 6] */
+double pe_ndf_evaluate(const pe_ndf *ndf, const double h[3]);
+
+/* h (unit, tangent frame) with density D(h) cos(theta_h) per steradian, from u1, u2 in [0, 1). */
+void pe_ndf_sample(const pe_ndf *ndf, double u1, double u2, double h[3]);
+
+/* ---- the truth ---------------------------------------------------------------------------------------------- */
+
+/* Both take n and o of any length but zero; if o lies behind the surface, n is turned to face it.  `direction` is the
+ * brush direction.  The light is what lies in the hemisphere of n: [Motegi Eq. 4].
+ *
+ * pe_exact: every texel of the hemisphere weighted by D(h) and its solid angle, in double precision.  [Motegi Eq. 4]
+ * pe_monte_carlo: `samples` >= 1 half vectors drawn from the NDF, weighted so that the mean is Eq. 4; the sequence
+ * depends on n and o alone, so that a picture is the same in every run and for any number of threads. */
+void pe_exact(const pe_env *env, const pe_ndf *ndf, const double direction[3], const double n[3], const double o[3],
+              double rgb[3]);
+void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction[3], int samples, const double n[3],
+                    const double o[3], double rgb[3]);
+
+/* ---- maps: bake, read, write -------------------------------------------------------------------------------- */
+
+/* What is looked up: the environment filtered once for each representative normal, or once (baseline). */
+typedef struct pe_maps pe_maps;
+
+typedef enum pe_method {
+    PE_METHOD_REPRESENTATIVE = 0, /* [Motegi 3.1]: one map for each representative normal, a pair sharing one image */
+    PE_METHOD_BASELINE            /* one map, the lobe as at normal incidence for every direction [Motegi Fig. 3a] */
+} pe_method;
+
+typedef enum pe_accuracy {
+    PE_ACCURACY_AUTO = 0, /* exact up to 400 x 200 environment texels, fast above */
+    PE_ACCURACY_EXACT,    /* [Motegi Eq. 5], every texel */
+    PE_ACCURACY_FAST      /* the environment in clusters; the error is estimated and recorded */
+} pe_accuracy;
+
+/* A struct of zeros means the defaults. */
+typedef struct pe_bake_options {
+    pe_method method;
+    pe_ndf ndf;          /* both alphas 0: 0.1 */
+    double direction[3]; /* brush direction, any length; 0 0 0: +y */
+    int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: 42.  Baseline: ignored */
+    int width, height;   /* of a map, in texels, each in [2, 8192]; 0: 400 x 200 */
+    pe_accuracy accuracy;
+    int threads; /* 0: one a processor */
+    pe_progress *progress;
+    void *progress_data;
+} pe_bake_options;
+
+pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error);
+
+/* What a maps file says of itself.  Strings live as long as the maps. */
+typedef struct pe_maps_info {
+    int format_version;
+    pe_method method;
+    pe_ndf ndf;
+    double direction[3];
+    int normals;       /* 0 for baseline */
+    int frequency;     /* of the geodesic sphere; 0 for baseline */
+    int images;        /* lat-long images held: normals / 2, or 1 */
+    int width, height; /* of each */
+    const char *source_name;
+    int source_width, source_height;
+    pe_accuracy accuracy;  /* EXACT or FAST */
+    double error_estimate; /* relative L2 error against Eq. 5 where n.r > 0.15; 0 for exact */
+} pe_maps_info;
+
+const pe_maps_info *pe_maps_get_info(const pe_maps *maps);
+
+/* Image k, 3 * width * height floats: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k. */
+const float *pe_maps_image(const pe_maps *maps, int k);
+void pe_maps_normal(const pe_maps *maps, int k, double n[3]); /* n_k, unit */
+
+/* Do these bytes start an OpenEXR file that carries Prefenv's attributes?  Non-zero if so. */
+int pe_maps_detect(const void *bytes, size_t size);
+
+pe_status pe_maps_read(const char *path, pe_maps **maps, pe_error *error);
+pe_status pe_maps_read_memory(const void *bytes, size_t size, const char *name, pe_maps **maps, pe_error *error);
+
+typedef enum pe_pixel_type { PE_PIXEL_HALF = 0, PE_PIXEL_FLOAT } pe_pixel_type;
+
+/* The file appears whole or not at all: it is written beside its target and renamed.  Half floats end at 65504: if a
+ * texel is brighter, PE_ERROR_LIMIT says so and names the way out (PE_PIXEL_FLOAT). */
+pe_status pe_maps_write(const pe_maps *maps, const char *path, pe_pixel_type type, pe_error *error);
+
+void pe_maps_free(pe_maps *maps); /* NULL is allowed */
+
+/* ---- sample: the lookup --------------------------------------------------------------------------------------- */
+
+/* The numbers are those of `method` in POV-Ray's prefiltered_environment block. */
+typedef enum pe_interpolation {
+    PE_INTERPOLATION_DEFAULT = 0, /* linear */
+    PE_INTERPOLATION_NEAREST = 1, /* the nearest representative normal [Motegi Fig. 4a] */
+    PE_INTERPOLATION_WEIGHTED = 2, /* [Motegi Eq. 7] */
+    PE_INTERPOLATION_LINEAR = 3   /* barycentric over the geodesic triangle that holds n */
+} pe_interpolation;
+
+typedef struct pe_sampling {
+    pe_interpolation interpolation;
+    double exponent; /* Eq. 7's a, for weighted; 0: 50 (f / 2)^2 */
+} pe_sampling;
+
+/* The reflected radiance towards o at a surface of normal n: [Motegi Eq. 3] with the interpolation asked for.  n and o
+ * of any length but zero; if o lies behind the surface, n is turned to face it.  `sampling` may be NULL (defaults). */
+void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double n[3], const double o[3], double rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
