@@ -1,0 +1,151 @@
+/* file.c - files read whole and written whole. */
+#include "status.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static pe_status file_error(pe_error *error, const char *path, const char *verb)
+{
+    return pe_fail(error, PE_ERROR_FILE, "%s: cannot %s: %s", path, verb, strerror(errno));
+}
+
+/* Reads until the end of fd into a growing buffer: the size a file reports is only a first guess. */
+static pe_status read_all(int fd, const char *path, size_t guess, unsigned char **bytes, size_t *size, pe_error *error)
+{
+    size_t capacity = guess + 1, used = 0;
+    unsigned char *buffer = malloc(capacity);
+
+    while (buffer) {
+        ssize_t got = read(fd, buffer + used, capacity - used);
+
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            free(buffer);
+            return file_error(error, path, "read");
+        }
+        if (got == 0) {
+            *bytes = buffer;
+            *size = used;
+            return PE_OK;
+        }
+        used += (size_t)got;
+        if (used > PE_FILE_SIZE_MAX) {
+            free(buffer);
+            return pe_fail(error, PE_ERROR_LIMIT, "%s: larger than %zu bytes", path, PE_FILE_SIZE_MAX);
+        }
+        if (used == capacity) {
+            unsigned char *larger = realloc(buffer, capacity *= 2);
+
+            if (!larger)
+                free(buffer);
+            buffer = larger;
+        }
+    }
+    return pe_fail(error, PE_ERROR_MEMORY, "%s: not enough memory to read it", path);
+}
+
+pe_status pe_file_read(const char *path, unsigned char **bytes, size_t *size, pe_error *error)
+{
+    struct stat about;
+    pe_status status;
+    size_t guess = 1 << 16;
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+
+    if (fd < 0)
+        return file_error(error, path, "open");
+    if (fstat(fd, &about) == 0 && S_ISDIR(about.st_mode)) {
+        close(fd);
+        return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
+    }
+    if (about.st_size > 0 && (size_t)about.st_size <= PE_FILE_SIZE_MAX)
+        guess = (size_t)about.st_size;
+    status = read_all(fd, path, guess, bytes, size, error);
+    close(fd);
+    return status;
+}
+
+static int write_all(int fd, const unsigned char *bytes, size_t size)
+{
+    while (size) {
+        ssize_t put = write(fd, bytes, size);
+
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put <= 0)
+            return -1;
+        bytes += put;
+        size -= (size_t)put;
+    }
+    return 0;
+}
+
+static pe_status write_device(const char *path, const void *bytes, size_t size, pe_error *error)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+
+    if (fd < 0)
+        return file_error(error, path, "open for writing");
+    if (write_all(fd, bytes, size) < 0) {
+        file_error(error, path, "write");
+        close(fd);
+        return PE_ERROR_FILE;
+    }
+    return close(fd) < 0 ? file_error(error, path, "write") : PE_OK;
+}
+
+/* The mode open(2) would have given a new file: mkstemp makes it private. */
+static mode_t new_file_mode(void)
+{
+    mode_t mask = umask(0);
+
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+static pe_status write_and_rename(const char *path, char *temporary, const void *bytes, size_t size, pe_error *error)
+{
+    int fd = mkstemp(temporary);
+
+    if (fd < 0)
+        return file_error(error, path, "create a file beside it");
+    if (fchmod(fd, new_file_mode()) < 0 || write_all(fd, bytes, size) < 0 || fsync(fd) < 0) {
+        file_error(error, path, "write");
+        close(fd);
+        unlink(temporary);
+        return PE_ERROR_FILE;
+    }
+    if (close(fd) < 0 || rename(temporary, path) < 0) {
+        file_error(error, path, "write");
+        unlink(temporary);
+        return PE_ERROR_FILE;
+    }
+    return PE_OK;
+}
+
+pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_error *error)
+{
+    static const char suffix[] = ".XXXXXX";
+    struct stat about;
+    pe_status status;
+    char *temporary;
+
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) {
+        if (S_ISDIR(about.st_mode))
+            return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
+        return write_device(path, bytes, size, error);
+    }
+    temporary = malloc(strlen(path) + sizeof suffix);
+    if (!temporary)
+        return pe_fail_memory(error, "a file name");
+    strcpy(temporary, path);
+    strcat(temporary, suffix);
+    status = write_and_rename(path, temporary, bytes, size, error);
+    free(temporary);
+    return status;
+}
