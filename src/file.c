@@ -99,22 +99,27 @@ static pe_status write_device(const char *path, const void *bytes, size_t size, 
     return close(fd) < 0 ? file_error(error, path, "write") : PE_OK;
 }
 
-/* The mode open(2) would have given a new file: mkstemp makes it private. */
-static mode_t new_file_mode(void)
+/* Opens a new file beside `path`, under a name nobody else has; the name is left in `temporary`. */
+static int open_beside(const char *path, char *temporary, size_t room)
 {
-    mode_t mask = umask(0);
+    int fd = -1;
 
-    umask(mask);
-    return 0666 & ~mask;
+    errno = EEXIST;
+    for (int attempt = 0; attempt < 100 && fd < 0 && errno == EEXIST; attempt++) {
+        snprintf(temporary, room, "%s.%ld-%d.tmp", path, (long)getpid(), attempt);
+        fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    return fd;
 }
 
-static pe_status write_and_rename(const char *path, char *temporary, const void *bytes, size_t size, pe_error *error)
+static pe_status write_and_rename(const char *path, char *temporary, size_t room, const void *bytes, size_t size,
+                                  pe_error *error)
 {
-    int fd = mkstemp(temporary);
+    int fd = open_beside(path, temporary, room);
 
     if (fd < 0)
         return file_error(error, path, "create a file beside it");
-    if (fchmod(fd, new_file_mode()) < 0 || write_all(fd, bytes, size) < 0 || fsync(fd) < 0) {
+    if (write_all(fd, bytes, size) < 0 || fsync(fd) < 0) {
         file_error(error, path, "write");
         close(fd);
         unlink(temporary);
@@ -130,8 +135,8 @@ static pe_status write_and_rename(const char *path, char *temporary, const void 
 
 pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_error *error)
 {
-    static const char suffix[] = ".XXXXXX";
     struct stat about;
+    size_t room = strlen(path) + 64;
     pe_status status;
     char *temporary;
 
@@ -140,12 +145,10 @@ pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_err
             return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
         return write_device(path, bytes, size, error);
     }
-    temporary = malloc(strlen(path) + sizeof suffix);
+    temporary = malloc(room);
     if (!temporary)
         return pe_fail_memory(error, "a file name");
-    strcpy(temporary, path);
-    strcat(temporary, suffix);
-    status = write_and_rename(path, temporary, bytes, size, error);
+    status = write_and_rename(path, temporary, room, bytes, size, error);
     free(temporary);
     return status;
 }

@@ -1,0 +1,89 @@
+/* options.h - one table describes a command; parsing and help both come from it. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include <stddef.h>
+
+/* How an option's value is written, and what it fills at `offset` of the command's settings. */
+typedef enum cli_type {
+    CLI_SWITCH,  /* nothing written; int, 1 if given */
+    CLI_INTEGER, /* 42; int */
+    CLI_NUMBER,  /* 0.5; double */
+    CLI_PAIR,    /* A, which stands for A,A, or A,B; double[2] */
+    CLI_VECTOR,  /* X,Y,Z, not all zero; double[3] */
+    CLI_SIZE,    /* 400x200; int[2] */
+    CLI_CHOICE,  /* one of `choices`; int */
+    CLI_TEXT     /* any; const char * */
+} cli_type;
+
+typedef struct cli_choice {
+    const char *name; /* NULL ends a list */
+    int value;
+} cli_choice;
+
+typedef struct cli_option {
+    const char *name;        /* without the dashes; NULL ends a table */
+    int letter;              /* the short form, or 0 */
+    const char *placeholder; /* what the help calls the value; NULL for a switch */
+    cli_type type;
+    size_t offset;             /* of the member in the settings */
+    double low, high;          /* range of each number; both 0: any */
+    const cli_choice *choices; /* CLI_CHOICE */
+    const char *preset;        /* the default as a user would write it, stored before parsing; NULL: none */
+    int required;
+    const char *help; /* a sentence without its stop */
+} cli_option;
+
+typedef struct cli_operand {
+    const char *name; /* NULL ends a list */
+    size_t offset;    /* of a const char * in the settings */
+    const char *help;
+} cli_operand;
+
+typedef struct cli_command {
+    const char *name;
+    const char *summary; /* for the list of commands */
+    const char *about;   /* a paragraph for the command's own help */
+    const cli_operand *operands;
+    const cli_option *options;
+    int (*run)(int argc, char **argv); /* argv[0] is the command's name; returns the exit code */
+} cli_command;
+
+/* What cli_parse returns when the command is to go on. */
+enum { CLI_PROCEED = -1 };
+
+/* Fills *settings, which must be zeros, from the table's presets and the arguments.  Returns CLI_PROCEED; or an exit
+ * code: the help was asked for and printed, or something is wrong and one error was printed. */
+int cli_parse(const cli_command *command, int argc, char **argv, void *settings);
+
+/* Stores the value `text` of an option.  CLI_FAILURE, with its error printed, if it is not acceptable. */
+int cli_store(const cli_command *command, const cli_option *option, const char *text, void *settings);
+
+/* Prints the help of a command to standard output, 80 columns wide at most. */
+void cli_help(const cli_command *command);
+
+/* Prints `text` in lines of at most 79 columns, each but the first indented; the first starts at `column`. */
+void cli_wrap(const char *text, int column, int indent);
+
+/* Rows that several tables share. */
+#define CLI_OPTION_THREADS(settings) \
+    {"threads", 0, "N", CLI_INTEGER, offsetof(settings, threads), 1, 256, NULL, NULL, 0, \
+     "how many threads work; the result is the same for any number. Default: one a processor"}
+#define CLI_OPTION_JSON(settings) \
+    {"json", 0, NULL, CLI_SWITCH, offsetof(settings, json), 0, 0, NULL, NULL, 0, "print one JSON object instead of text"}
+#define CLI_OPTION_QUIET(settings) \
+    {"quiet", 'q', NULL, CLI_SWITCH, offsetof(settings, quiet), 0, 0, NULL, NULL, 0, \
+     "print errors only: no progress, no summary, no warnings"}
+#define CLI_OPTION_NDF(settings) \
+    {"ndf", 0, "NAME", CLI_CHOICE, offsetof(settings, ndf), 0, 0, cli_ndfs, "beckmann", 0, \
+     "the surface's normal distribution: beckmann"}
+#define CLI_OPTION_ALPHA(settings) \
+    {"alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, "0.1", 0, \
+     "width of the normal distribution; two numbers: along and across the brush direction"}
+#define CLI_OPTION_DIRECTION(settings) \
+    {"direction", 0, "X,Y,Z", CLI_VECTOR, offsetof(settings, direction), 0, 0, NULL, "0,1,0", 0, \
+     "the brush direction, which a width of two numbers refers to"}
+
+extern const cli_choice cli_ndfs[];
+
+#endif

@@ -1,0 +1,71 @@
+/* system.c - what the command asks the operating system before it starts to work. */
+#include "cli.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int cli_processors(void)
+{
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+
+    return count < 1 ? 1 : count > 256 ? 256 : (int)count;
+}
+
+/* The folder of `path`, to be freed; NULL if memory is out. */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    if (!slash)
+        return strdup(".");
+    return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
+}
+
+static int check_folder(const char *command, const char *output)
+{
+    struct stat status;
+    int result = CLI_FAILURE;
+    char *folder = folder_of(output);
+
+    if (!folder)
+        cli_error(command, "out of memory");
+    else if (stat(folder, &status) != 0)
+        cli_error(command, "cannot write \"%s\": its folder \"%s\": %s", output, folder, strerror(errno));
+    else if (!S_ISDIR(status.st_mode))
+        cli_error(command, "cannot write \"%s\": \"%s\" is not a folder", output, folder);
+    else if (access(folder, W_OK | X_OK) != 0)
+        cli_error(command, "cannot write \"%s\" into its folder: %s", output, strerror(errno));
+    else
+        result = CLI_SUCCESS;
+    free(folder);
+    return result;
+}
+
+int cli_check_output(const char *command, const char *output, const char *const *inputs)
+{
+    struct stat target, source;
+
+    if (!*output) {
+        cli_error(command, "the output's name is empty; give a file after -o");
+        return CLI_FAILURE;
+    }
+    if (stat(output, &target) != 0)
+        return check_folder(command, output);
+    /* The file is made beside its target and renamed: a device or a pipe would be replaced, not written to. */
+    if (!S_ISREG(target.st_mode)) {
+        cli_error(command, "cannot write \"%s\": it is %s", output,
+                  S_ISDIR(target.st_mode) ? "a folder; name a file in it" : "not a regular file");
+        return CLI_FAILURE;
+    }
+    for (; *inputs; inputs++)
+        if (stat(*inputs, &source) == 0 && source.st_dev == target.st_dev && source.st_ino == target.st_ino) {
+            cli_error(command, "the output \"%s\" is the input \"%s\" itself; choose another name after -o", output,
+                      *inputs);
+            return CLI_FAILURE;
+        }
+    return check_folder(command, output);
+}

@@ -1,0 +1,19 @@
+/* image.h - the readers behind pe_image_read: one a format, each from bytes in memory. */
+#ifndef PE_IMAGE_H
+#define PE_IMAGE_H
+
+#include "prefenv.h"
+
+#include <stdbool.h>
+
+/* Allocates image->rgb (and alpha, if asked for) after checking that the size is one we are willing to handle. */
+pe_status pe_image_allocate(const char *name, long long width, long long height, bool alpha, pe_image *image,
+                            pe_error *error);
+
+bool pe_hdr_detect(const unsigned char *bytes, size_t size);
+pe_status pe_hdr_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
+
+bool pe_png_detect(const unsigned char *bytes, size_t size);
+pe_status pe_png_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
+
+#endif
