@@ -21,11 +21,8 @@ const char *cli_nearest(const char *typed, const char *const *words, size_t coun
 /* Writes out what waits in stdout.  CLI_FAILURE, with its error printed, if any of the output was lost. */
 int cli_flush(const char *command);
 
-/* Can `output` be written?  Its folder must exist, it must be a regular file or nothing yet, and it must be none of
+/* Can `output` be written?  Its folder must exist, it must not be a folder itself, and it must be none of
  * `inputs` (ended by NULL).  CLI_FAILURE, with its error printed, if not. */
 int cli_check_output(const char *command, const char *output, const char *const *inputs);
-
-/* The processors this machine has, at least 1. */
-int cli_processors(void);
 
 #endif

@@ -76,7 +76,7 @@ static void report_unknown(const cli_command *command, const getopt_tables *tabl
     size_t length;
     char typed[40];
 
-    if (strncmp(argument, "--", 2) != 0) {
+    if (optopt) { /* a letter; getopt_long leaves 0 there for a word */
         cli_error(command->name, "unknown option -%c; see 'prefenv %s --help'", optopt, command->name);
         return;
     }

@@ -8,13 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-int cli_processors(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-
-    return count < 1 ? 1 : count > 256 ? 256 : (int)count;
-}
-
 /* The folder of `path`, to be freed; NULL if memory is out. */
 static char *folder_of(const char *path)
 {
@@ -34,11 +27,11 @@ static int check_folder(const char *command, const char *output)
     if (!folder)
         cli_error(command, "out of memory");
     else if (stat(folder, &status) != 0)
-        cli_error(command, "cannot write \"%s\": its folder \"%s\": %s", output, folder, strerror(errno));
+        cli_error(command, "%s: cannot write into %s: %s", output, folder, strerror(errno));
     else if (!S_ISDIR(status.st_mode))
-        cli_error(command, "cannot write \"%s\": \"%s\" is not a folder", output, folder);
+        cli_error(command, "%s: %s is not a folder", output, folder);
     else if (access(folder, W_OK | X_OK) != 0)
-        cli_error(command, "cannot write \"%s\" into its folder: %s", output, strerror(errno));
+        cli_error(command, "%s: cannot write into its folder: %s", output, strerror(errno));
     else
         result = CLI_SUCCESS;
     free(folder);
@@ -55,16 +48,15 @@ int cli_check_output(const char *command, const char *output, const char *const 
     }
     if (stat(output, &target) != 0)
         return check_folder(command, output);
-    /* The file is made beside its target and renamed: a device or a pipe would be replaced, not written to. */
-    if (!S_ISREG(target.st_mode)) {
-        cli_error(command, "cannot write \"%s\": it is %s", output,
-                  S_ISDIR(target.st_mode) ? "a folder; name a file in it" : "not a regular file");
+    if (S_ISDIR(target.st_mode)) {
+        cli_error(command, "%s: is a folder; name a file in it", output);
         return CLI_FAILURE;
     }
+    if (!S_ISREG(target.st_mode)) /* a device or a pipe is written straight */
+        return CLI_SUCCESS;
     for (; *inputs; inputs++)
         if (stat(*inputs, &source) == 0 && source.st_dev == target.st_dev && source.st_ino == target.st_ino) {
-            cli_error(command, "the output \"%s\" is the input \"%s\" itself; choose another name after -o", output,
-                      *inputs);
+            cli_error(command, "%s: is the input %s itself; give another name after -o", output, *inputs);
             return CLI_FAILURE;
         }
     return check_folder(command, output);

@@ -1,0 +1,246 @@
+/* bake.c - `prefenv bake`: an environment image to a maps file. */
+#include "cli.h"
+#include "commands.h"
+#include "describe.h"
+#include "interrupt.h"
+#include "prefenv.h"
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#define HALF_MAX 65504.0f
+#define FREQUENCY_MAX 32
+
+typedef struct bake_settings {
+    const char *environment, *output;
+    int method, ndf;
+    double alpha[2], direction[3];
+    int normals, size[2];
+    int exact, fast, floats;
+    int threads, json, quiet;
+} bake_settings;
+
+static const cli_operand operands[] = {
+    {"ENV", offsetof(bake_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG"},
+    {NULL, 0, NULL},
+};
+
+static const cli_choice methods[] = {
+    {"representative", PE_METHOD_REPRESENTATIVE},
+    {"baseline", PE_METHOD_BASELINE},
+    {NULL, 0},
+};
+
+static const cli_option options[] = {
+    {"output", 'o', "MAPS", CLI_TEXT, offsetof(bake_settings, output), 0, 0, NULL, NULL, 1,
+     "the maps file to write, an OpenEXR; it appears whole or not at all"},
+    {"method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, "representative", 0,
+     "representative: a map for each of --normals; baseline: one map, its lobe the one at normal incidence, for "
+     "comparison"},
+    CLI_OPTION_NDF(bake_settings),
+    CLI_OPTION_ALPHA(bake_settings),
+    CLI_OPTION_DIRECTION(bake_settings),
+    {"normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), 0, 0, NULL, "42", 0,
+     "representative normals: 12, 42, 92, 162, ... 10 f^2 + 2, f up to 32"},
+    {"size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
+     "width and height of each map"},
+    {"exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
+     "weigh every texel of the environment. Default: exact up to 400x200 texels of ENV, fast above"},
+    {"fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
+     "gather texels in clusters; the error is estimated and recorded"},
+    {"float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
+     "store 32-bit floats, not half floats"},
+    CLI_OPTION_THREADS(bake_settings),
+    CLI_OPTION_JSON(bake_settings),
+    CLI_OPTION_QUIET(bake_settings),
+    {.name = NULL},
+};
+
+static int count_of(int frequency)
+{
+    return 10 * frequency * frequency + 2;
+}
+
+/* CLI_FAILURE, with its error printed, unless `normals` is 10 f^2 + 2. */
+static int check_normals(int normals)
+{
+    int f = normals > 2 ? (int)sqrt((normals - 2) / 10.0) : 0; /* the greatest with count_of(f) <= normals */
+
+    if (f >= 1 && f <= FREQUENCY_MAX && count_of(f) == normals)
+        return CLI_SUCCESS;
+    if (f < 1)
+        cli_error("bake", "--normals %d: the least count is %d", normals, count_of(1));
+    else if (f >= FREQUENCY_MAX)
+        cli_error("bake", "--normals %d: the greatest count is %d", normals, count_of(FREQUENCY_MAX));
+    else
+        cli_error("bake", "--normals %d is not 10 f^2 + 2; the nearest counts are %d and %d", normals, count_of(f),
+                  count_of(f + 1));
+    return CLI_FAILURE;
+}
+
+static int check_settings(const bake_settings *settings)
+{
+    const char *inputs[] = {settings->environment, NULL};
+
+    if (settings->exact && settings->fast) {
+        cli_error("bake", "--exact and --fast exclude each other; give one of them");
+        return CLI_FAILURE;
+    }
+    if (settings->method == PE_METHOD_REPRESENTATIVE && check_normals(settings->normals) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    return cli_check_output("bake", settings->output, inputs);
+}
+
+static int step_silently(double fraction, void *data)
+{
+    (void)fraction;
+    (void)data;
+    return interrupt_signal() != 0;
+}
+
+static int step_visibly(double fraction, void *data)
+{
+    progress_draw(data, fraction);
+    return interrupt_signal() != 0;
+}
+
+static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_maps **maps, pe_error *error)
+{
+    progress bar;
+    pe_status status;
+    pe_bake_options bake = {
+        .method = (pe_method)settings->method,
+        .ndf = {(pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1]},
+        .direction = {settings->direction[0], settings->direction[1], settings->direction[2]},
+        .normals = settings->normals,
+        .width = settings->size[0],
+        .height = settings->size[1],
+        .accuracy = settings->exact  ? PE_ACCURACY_EXACT
+                    : settings->fast ? PE_ACCURACY_FAST
+                                     : PE_ACCURACY_AUTO,
+        .threads = settings->threads,
+        .progress = progress_is_visible() && !settings->quiet ? step_visibly : step_silently,
+        .progress_data = &bar,
+    };
+
+    progress_begin(&bar);
+    status = pe_bake(env, &bake, maps, error);
+    progress_clear(&bar);
+    return status;
+}
+
+static int fits_half(const pe_maps *maps)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    size_t count = 3 * (size_t)info->width * (size_t)info->height;
+
+    for (int k = 0; k < info->images; k++) {
+        const float *image = pe_maps_image(maps, k);
+
+        for (size_t i = 0; i < count; i++)
+            if (image[i] > HALF_MAX)
+                return 0;
+    }
+    return 1;
+}
+
+/* Half floats unless floats are asked for or needed: a bake that took minutes is not thrown away for a bright sun. */
+static pe_pixel_type choose_pixels(const bake_settings *settings, const pe_maps *maps)
+{
+    if (settings->floats)
+        return PE_PIXEL_FLOAT;
+    if (fits_half(maps))
+        return PE_PIXEL_HALF;
+    if (!settings->quiet)
+        cli_warning("bake", "brighter than half floats can hold (65504): written as with --float");
+    return PE_PIXEL_FLOAT;
+}
+
+static void warn_of_repairs(const bake_settings *settings, const pe_env *env)
+{
+    size_t count = pe_env_repairs(env);
+
+    if (count && !settings->quiet)
+        cli_warning("bake", "%s: %zu NaN, infinite or negative %s repaired", settings->environment, count,
+                    count == 1 ? "texel was" : "texels were");
+}
+
+static void print_summary(const bake_settings *settings, const pe_maps *maps, double seconds)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    char accuracy[DESCRIBE_BYTES];
+    struct stat status;
+    double bytes = stat(settings->output, &status) == 0 ? (double)status.st_size : 0;
+
+    if (settings->json) {
+        json out = {0};
+
+        json_open(&out, NULL);
+        json_text(&out, "file", settings->output);
+        json_integer(&out, "bytes", (long long)bytes);
+        json_number(&out, "seconds", seconds);
+        describe_maps_json(&out, info);
+        json_close(&out);
+        return;
+    }
+    if (settings->quiet)
+        return;
+    describe_accuracy(info, accuracy);
+    fprintf(stderr, "%s: %d %s of %dx%d, %.1f MB, in %.1f s, %s\n", settings->output, info->images,
+           info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy);
+}
+
+/* Bakes and writes; on success *maps is the caller's. */
+static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_error *error)
+{
+    pe_env *env;
+    pe_status status = pe_env_read(settings->environment, &env, error);
+
+    if (status != PE_OK)
+        return status;
+    warn_of_repairs(settings, env);
+    status = bake_maps(settings, env, maps, error);
+    pe_env_free(env);
+    if (status != PE_OK)
+        return status;
+    status = pe_maps_write(*maps, settings->output, choose_pixels(settings, *maps), error);
+    if (status != PE_OK)
+        pe_maps_free(*maps);
+    return status;
+}
+
+static int bake_run(int argc, char **argv)
+{
+    bake_settings settings = {0};
+    double begun = clock_seconds();
+    pe_maps *maps;
+    pe_error error;
+    int proceed = cli_parse(&bake_command, argc, argv, &settings);
+
+    if (proceed != CLI_PROCEED)
+        return proceed;
+    if (check_settings(&settings) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    interrupt_catch();
+    if (bake_file(&settings, &maps, &error) != PE_OK) {
+        interrupt_die();
+        cli_error("bake", "%s", error.message);
+        return CLI_FAILURE;
+    }
+    print_summary(&settings, maps, clock_seconds() - begun);
+    pe_maps_free(maps);
+    interrupt_die();
+    return cli_flush("bake");
+}
+
+const cli_command bake_command = {
+    "bake",
+    "filter an environment into a maps file",
+    "Filters a lat-long environment image by a surface's normal distribution, once for each of a few representative "
+    "normals, and writes the maps file that POV-Ray's prefiltered_environment and 'prefenv eval' look up.",
+    operands,
+    options,
+    bake_run,
+};

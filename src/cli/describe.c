@@ -1,0 +1,60 @@
+/* describe.c - see describe.h. */
+#include "describe.h"
+
+#include <stdio.h>
+
+static const char *method_name(pe_method method)
+{
+    return method == PE_METHOD_BASELINE ? "baseline" : "representative";
+}
+
+void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
+{
+    if (info->accuracy == PE_ACCURACY_FAST)
+        snprintf(text, DESCRIBE_BYTES, "fast, estimated relative error %.2g %%", 100 * info->error_estimate);
+    else
+        snprintf(text, DESCRIBE_BYTES, "exact");
+}
+
+void describe_maps(const pe_maps_info *info)
+{
+    char accuracy[DESCRIBE_BYTES];
+
+    describe_accuracy(info, accuracy);
+    printf("method     %s\n", method_name(info->method));
+    if (info->method == PE_METHOD_REPRESENTATIVE)
+        printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
+    printf("images     %d of %dx%d\n", info->images, info->width, info->height);
+    printf("ndf        beckmann\n");
+    if (info->ndf.alpha_x == info->ndf.alpha_y)
+        printf("alpha      %g\n", info->ndf.alpha_x);
+    else
+        printf("alpha      %g along, %g across the brush\n", info->ndf.alpha_x, info->ndf.alpha_y);
+    printf("direction  %g %g %g\n", info->direction[0], info->direction[1], info->direction[2]);
+    printf("source     %s, %dx%d\n", *info->source_name ? info->source_name : "(no name)", info->source_width,
+           info->source_height);
+    printf("accuracy   %s\n", accuracy);
+    printf("format     version %d\n", info->format_version);
+}
+
+void describe_maps_json(json *out, const pe_maps_info *info)
+{
+    const double alpha[2] = {info->ndf.alpha_x, info->ndf.alpha_y};
+    const double direction[3] = {info->direction[0], info->direction[1], info->direction[2]};
+
+    json_integer(out, "format_version", info->format_version);
+    json_text(out, "method", method_name(info->method));
+    json_text(out, "ndf", "beckmann");
+    json_numbers(out, "alpha", alpha, 2);
+    json_numbers(out, "direction", direction, 3);
+    json_integer(out, "normals", info->normals);
+    json_integer(out, "frequency", info->frequency);
+    json_integer(out, "images", info->images);
+    json_integer(out, "width", info->width);
+    json_integer(out, "height", info->height);
+    json_text(out, "source_name", info->source_name);
+    json_integer(out, "source_width", info->source_width);
+    json_integer(out, "source_height", info->source_height);
+    json_text(out, "accuracy", info->accuracy == PE_ACCURACY_FAST ? "fast" : "exact");
+    json_number(out, "error_estimate", info->error_estimate);
+}

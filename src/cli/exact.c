@@ -1,0 +1,75 @@
+/* exact.c - `prefenv exact`: what eval approximates, from every texel of the environment [Motegi Eq. 4]. */
+#include "cli.h"
+#include "commands.h"
+#include "lines.h"
+#include "prefenv.h"
+
+typedef struct exact_settings {
+    const char *environment;
+    int ndf;
+    double alpha[2], direction[3];
+    int threads, quiet;
+} exact_settings;
+
+static const cli_operand operands[] = {
+    {"ENV", offsetof(exact_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG"},
+    {NULL, 0, NULL},
+};
+
+static const cli_option options[] = {
+    CLI_OPTION_NDF(exact_settings),     CLI_OPTION_ALPHA(exact_settings), CLI_OPTION_DIRECTION(exact_settings),
+    CLI_OPTION_THREADS(exact_settings), CLI_OPTION_QUIET(exact_settings), {.name = NULL},
+};
+
+enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels do */
+
+typedef struct truth {
+    const pe_env *env;
+    pe_ndf ndf;
+    double direction[3];
+} truth;
+
+static void sum_up(const double n[3], const double o[3], const void *data, double rgb[3])
+{
+    const truth *t = data;
+
+    pe_exact(t->env, &t->ndf, t->direction, n, o, rgb);
+}
+
+static int exact_run(int argc, char **argv)
+{
+    exact_settings settings = {0};
+    pe_env *env;
+    pe_error error;
+    int result = cli_parse(&exact_command, argc, argv, &settings);
+
+    if (result != CLI_PROCEED)
+        return result;
+    if (pe_env_read(settings.environment, &env, &error) != PE_OK) {
+        cli_error("exact", "%s", error.message);
+        return CLI_FAILURE;
+    }
+    cli_warn_repairs("exact", settings.environment, env);
+    {
+        const truth t = {
+            env,
+            {(pe_ndf_kind)settings.ndf, settings.alpha[0], settings.alpha[1]},
+            {settings.direction[0], settings.direction[1], settings.direction[2]},
+        };
+        const lines_job job = {"exact", settings.threads, LINES_PER_BLOCK, sum_up, &t};
+
+        result = lines_run(&job);
+    }
+    pe_env_free(env);
+    return result;
+}
+
+const cli_command exact_command = {
+    "exact",
+    "compute the exact radiance for lines of normal and viewer",
+    "Reads and prints the same lines as 'prefenv eval', but sums over every texel of the environment in double "
+    "precision: slow, and the truth that eval is measured against.",
+    operands,
+    options,
+    exact_run,
+};

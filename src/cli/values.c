@@ -1,0 +1,174 @@
+/* values.c - the text of an option's value to numbers, checked against the table's range. */
+#include "cli.h"
+#include "options.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One sentence: which option, what was written, what is wanted. */
+__attribute__((format(printf, 4, 5))) static int refuse(const cli_command *command, const cli_option *option,
+                                                        const char *text, const char *format, ...)
+{
+    char wanted[512];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(wanted, sizeof wanted, format, arguments);
+    va_end(arguments);
+    cli_error(command->name, "--%s %s: %s", option->name, text, wanted);
+    return CLI_FAILURE;
+}
+
+static int in_range(const cli_option *option, double value)
+{
+    return (option->low == 0 && option->high == 0) || (value >= option->low && value <= option->high);
+}
+
+/* Reads the number at *text and steps over it.  Zero if none is there; infinities and NaN count as none. */
+static int read_number(const char **text, double *value)
+{
+    char *end;
+
+    *value = strtod(*text, &end);
+    if (end == *text || !isfinite(*value))
+        return 0;
+    *text = end;
+    return 1;
+}
+
+/* Reads `count` numbers with `separator` between them and checks each.  The number read, 0 if the text is not that. */
+static int read_numbers(const char *text, char separator, int count, double *values)
+{
+    for (int i = 0; i < count; i++) {
+        if (!read_number(&text, &values[i]))
+            return 0;
+        if (*text == '\0')
+            return i + 1;
+        if (*text++ != separator)
+            return 0;
+    }
+    return 0; /* more than asked for */
+}
+
+static int store_integer(const cli_command *command, const cli_option *option, const char *text, int *target)
+{
+    char *end;
+    long value;
+
+    errno = 0;
+    value = strtol(text, &end, 10);
+    if (end == text || *end)
+        return refuse(command, option, text, "a whole number is wanted");
+    if (errno || value < INT_MIN || value > INT_MAX || !in_range(option, (double)value))
+        return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+    *target = (int)value;
+    return CLI_SUCCESS;
+}
+
+static int store_number(const cli_command *command, const cli_option *option, const char *text, double *target)
+{
+    double value;
+
+    if (read_numbers(text, ',', 1, &value) != 1)
+        return refuse(command, option, text, "a number is wanted");
+    if (!in_range(option, value))
+        return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+    *target = value;
+    return CLI_SUCCESS;
+}
+
+static int store_pair(const cli_command *command, const cli_option *option, const char *text, double target[2])
+{
+    double values[2];
+    int count = read_numbers(text, ',', 2, values);
+
+    if (count == 0)
+        return refuse(command, option, text, "one number is wanted, or two as in %g,%g", 0.1, 0.03);
+    if (count == 1)
+        values[1] = values[0];
+    for (int i = 0; i < 2; i++)
+        if (!in_range(option, values[i]))
+            return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+    memcpy(target, values, sizeof values);
+    return CLI_SUCCESS;
+}
+
+static int store_vector(const cli_command *command, const cli_option *option, const char *text, double target[3])
+{
+    double values[3];
+
+    if (read_numbers(text, ',', 3, values) != 3)
+        return refuse(command, option, text, "three numbers are wanted, as in 0,1,0");
+    if (values[0] == 0 && values[1] == 0 && values[2] == 0)
+        return refuse(command, option, text, "the zero vector has no direction");
+    memcpy(target, values, sizeof values);
+    return CLI_SUCCESS;
+}
+
+static int store_size(const cli_command *command, const cli_option *option, const char *text, int target[2])
+{
+    long size[2];
+    char *end;
+
+    errno = 0;
+    size[0] = strtol(text, &end, 10);
+    if (end == text || *end != 'x')
+        return refuse(command, option, text, "width and height are wanted, as in 400x200");
+    text = end + 1;
+    size[1] = strtol(text, &end, 10);
+    if (end == text || *end)
+        return refuse(command, option, text, "width and height are wanted, as in 400x200");
+    for (int i = 0; i < 2; i++)
+        if (errno || size[i] < (long)option->low || size[i] > (long)option->high)
+            return refuse(command, option, text, "width and height must be from %g to %g", option->low, option->high);
+    target[0] = (int)size[0];
+    target[1] = (int)size[1];
+    return CLI_SUCCESS;
+}
+
+static int store_choice(const cli_command *command, const cli_option *option, const char *text, int *target)
+{
+    char list[128] = "";
+    size_t used = 0;
+
+    for (const cli_choice *choice = option->choices; choice->name; choice++) {
+        if (strcmp(choice->name, text) == 0) {
+            *target = choice->value;
+            return CLI_SUCCESS;
+        }
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", choice->name);
+    }
+    return refuse(command, option, text, "not known; what there is: %s", list);
+}
+
+int cli_store(const cli_command *command, const cli_option *option, const char *text, void *settings)
+{
+    void *target = (char *)settings + option->offset;
+
+    switch (option->type) {
+    case CLI_SWITCH:
+        *(int *)target = 1;
+        return CLI_SUCCESS;
+    case CLI_INTEGER:
+        return store_integer(command, option, text, target);
+    case CLI_NUMBER:
+        return store_number(command, option, text, target);
+    case CLI_PAIR:
+        return store_pair(command, option, text, target);
+    case CLI_VECTOR:
+        return store_vector(command, option, text, target);
+    case CLI_SIZE:
+        return store_size(command, option, text, target);
+    case CLI_CHOICE:
+        return store_choice(command, option, text, target);
+    case CLI_TEXT:
+        *(const char **)target = text;
+        return CLI_SUCCESS;
+    }
+    return CLI_FAILURE;
+}

@@ -1,0 +1,244 @@
+/* env.c - lat-long environments: load and repair, direction to texel and back, bilinear lookup. */
+#include "env.h"
+
+#include "image.h"
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- directions ---- */
+
+void pe_latlong_direction(double u, double v, double direction[3])
+{
+    double phi = 2 * M_PI * u, theta = M_PI * v;
+
+    direction[0] = sin(theta) * cos(phi);
+    direction[1] = cos(theta);
+    direction[2] = sin(theta) * sin(phi);
+}
+
+void pe_latlong_coordinates(const double direction[3], double *u, double *v)
+{
+    double turn = atan2(direction[2], direction[0]) / (2 * M_PI);
+
+    turn = turn < 0 ? turn + 1 : turn;
+    *u = turn < 1 ? turn : 0; /* -1e-17 + 1 is 1 */
+    /* atan2 keeps its accuracy at the poles, where acos(y) loses half its digits. */
+    *v = atan2(hypot(direction[0], direction[2]), direction[1]) / M_PI;
+}
+
+pe_status pe_grid_make(int width, int height, pe_grid *grid, pe_error *error)
+{
+    size_t w = (size_t)width, h = (size_t)height;
+    double *values = malloc((3 * h + 2 * w) * sizeof *values);
+
+    if (!values)
+        return pe_fail_memory(error, "a table of directions");
+    *grid = (pe_grid){ width,          height,         values,        values + h, values + 2 * h, values + 2 * h + w,
+                       values + 2 * h + 2 * w };
+    for (int y = 0; y < height; y++) {
+        double theta = M_PI * (y + 0.5) / height;
+
+        grid->sin_theta[y] = sin(theta);
+        grid->cos_theta[y] = cos(theta);
+        grid->solid_angle_sr[y] = 2 * M_PI / width * (cos(M_PI * y / height) - cos(M_PI * (y + 1) / height));
+    }
+    for (int x = 0; x < width; x++) {
+        double phi = 2 * M_PI * (x + 0.5) / width;
+
+        grid->sin_phi[x] = sin(phi);
+        grid->cos_phi[x] = cos(phi);
+    }
+    return PE_OK;
+}
+
+void pe_grid_free(pe_grid *grid)
+{
+    free(grid->sin_theta); /* one block, made by pe_grid_make */
+    *grid = (pe_grid){ 0 };
+}
+
+/* ---- loading ---- */
+
+/* The brightest finite value of each channel: what a positive infinity becomes. */
+static void find_brightest(const float *rgb, size_t texels, float brightest[3])
+{
+    memset(brightest, 0, 3 * sizeof *brightest);
+    for (size_t texel = 0; texel < texels; texel++)
+        for (int c = 0; c < 3; c++)
+            if (isfinite(rgb[3 * texel + (size_t)c]) && rgb[3 * texel + (size_t)c] > brightest[c])
+                brightest[c] = rgb[3 * texel + (size_t)c];
+}
+
+static size_t repair(float *rgb, size_t texels)
+{
+    float brightest[3];
+    size_t repairs = 0;
+
+    find_brightest(rgb, texels, brightest);
+    for (size_t texel = 0; texel < texels; texel++) {
+        bool broken = false;
+
+        for (int c = 0; c < 3; c++) {
+            float *value = rgb + 3 * texel + c;
+
+            if (isfinite(*value) && *value >= 0)
+                continue;
+            *value = isinf(*value) && *value > 0 ? brightest[c] : 0;
+            broken = true;
+        }
+        repairs += broken;
+    }
+    return repairs;
+}
+
+/* Takes the picture's texels over. */
+static pe_status make_env(pe_image *image, const char *name, pe_env **out, pe_error *error)
+{
+    pe_env *env = calloc(1, sizeof *env);
+    pe_status status;
+
+    if (!env)
+        return pe_fail_memory(error, "an environment");
+    env->name = strdup(name);
+    status = env->name ? pe_grid_make(image->width, image->height, &env->grid, error) : pe_fail_memory(error, "a name");
+    if (status != PE_OK) {
+        pe_env_free(env);
+        return status;
+    }
+    env->width = image->width;
+    env->height = image->height;
+    env->rgb = image->rgb;
+    image->rgb = NULL;
+    env->repairs = repair(env->rgb, (size_t)env->width * (size_t)env->height);
+    *out = env;
+    return PE_OK;
+}
+
+static pe_status take_image(pe_status status, pe_image *image, const char *name, pe_env **env, pe_error *error)
+{
+    if (status == PE_OK)
+        status = make_env(image, name, env, error);
+    pe_image_free(image);
+    return status;
+}
+
+pe_status pe_env_read(const char *path, pe_env **env, pe_error *error)
+{
+    pe_image image = { 0 };
+
+    return take_image(pe_image_read(path, &image, error), &image, pe_base_name(path), env, error);
+}
+
+pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, pe_env **env, pe_error *error)
+{
+    pe_image image = { 0 };
+
+    return take_image(pe_image_read_memory(bytes, size, name, &image, error), &image, pe_base_name(name), env, error);
+}
+
+pe_status pe_env_create(int width, int height, const float *rgb, pe_env **env, pe_error *error)
+{
+    pe_image image = { 0 };
+    pe_status status = pe_image_allocate("environment", width, height, false, &image, error);
+
+    if (status == PE_OK)
+        memcpy(image.rgb, rgb, 3 * sizeof *rgb * (size_t)width * (size_t)height);
+    return take_image(status, &image, "", env, error);
+}
+
+void pe_env_free(pe_env *env)
+{
+    if (!env)
+        return;
+    pe_grid_free(&env->grid);
+    free(env->name);
+    free(env->rgb);
+    free(env);
+}
+
+int pe_env_width(const pe_env *env)
+{
+    return env->width;
+}
+
+int pe_env_height(const pe_env *env)
+{
+    return env->height;
+}
+
+const float *pe_env_texels(const pe_env *env)
+{
+    return env->rgb;
+}
+
+const char *pe_env_name(const pe_env *env)
+{
+    return env->name;
+}
+
+size_t pe_env_repairs(const pe_env *env)
+{
+    return env->repairs;
+}
+
+/* ---- lookup ---- */
+
+static int clamp_index(double position, int count)
+{
+    return position <= 0 ? 0 : position >= count - 1 ? count - 1 : (int)position;
+}
+
+const float *pe_env_texel(const pe_env *env, const double direction[3])
+{
+    double u, v;
+
+    pe_latlong_coordinates(direction, &u, &v);
+    return env->rgb + 3 * ((size_t)clamp_index(v * env->height, env->height) * (size_t)env->width +
+                           (size_t)clamp_index(u * env->width, env->width));
+}
+
+/* Two taps of row y, `x` texels from u = 0 (texel centres at whole numbers), sharing `share`. */
+static void row_taps(int width, double x, int y, double share, pe_tap taps[2])
+{
+    double left = floor(x), right_part = x - left;
+    int column = (int)left % width;
+
+    column += column < 0 ? width : 0;
+    taps[0] = (pe_tap){ column, y, share * (1 - right_part) };
+    taps[1] = (pe_tap){ column + 1 < width ? column + 1 : 0, y, share * right_part };
+}
+
+void pe_latlong_taps(int width, int height, double u, double v, pe_tap taps[4])
+{
+    double x = u * width - 0.5, y = v * height - 0.5;
+    double above = floor(y), lower_part = y - above;
+    int row = (int)above;
+    double half_turn = 0.5 * width;
+
+    if (row < 0)
+        row_taps(width, x + half_turn, 0, 1 - lower_part, taps);
+    else
+        row_taps(width, x, row, 1 - lower_part, taps);
+    if (row + 1 >= height)
+        row_taps(width, x + half_turn, height - 1, lower_part, taps + 2);
+    else
+        row_taps(width, x, row + 1, lower_part, taps + 2);
+}
+
+void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3])
+{
+    pe_tap taps[4];
+    double u, v;
+
+    pe_latlong_coordinates(direction, &u, &v);
+    pe_latlong_taps(env->width, env->height, u, v, taps);
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = 0;
+        for (int k = 0; k < 4; k++)
+            rgb[c] += taps[k].share *
+                      (double)env->rgb[3 * ((size_t)taps[k].y * (size_t)env->width + (size_t)taps[k].x) + (size_t)c];
+    }
+}

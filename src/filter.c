@@ -1,0 +1,284 @@
+/* filter.c - the hot loop of [Motegi Eq. 5].
+ *
+ * In the tangent frame of the normal, with the unnormalised half vector h = o + w (o to the viewer, w to the light):
+ *
+ *     tan^2(theta_h) = (h_x^2 + h_y^2) / h_z^2,   1 / cos^2(theta_h) = 1 + tan^2(theta_h)
+ *     D(h) ~ (1 / cos^2)^2 exp(-(h_x^2 / ax^2 + h_y^2 / ay^2) / h_z^2)                           [Motegi Eq. 6]
+ *
+ * so a weight costs one division and one exponential, no square root and no trigonometry; the factor 1 / (pi ax ay)
+ * cancels in the quotient.  The exponential is 2^-e = 2^k 2^f with k whole and |f| <= 1/2, 2^f by the polynomial
+ * of degree 6 through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8).  Arithmetic is on vectors of 16 floats of GCC's vector extension, which
+ * become AVX-512, AVX2 or SSE2 with the same bits: every lane sums its own lights, and contraction is off. */
+#include "filter.h"
+
+#include "status.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LANES 16
+
+/* Vectors never cross a function that is not inlined, so how they would be passed does not matter. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+typedef float floats __attribute__((vector_size(4 * LANES)));
+typedef int ints __attribute__((vector_size(4 * LANES)));
+
+/* ThreadSanitizer starts after the resolvers of target_clones run, and crashes in them. */
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(PE_NO_TARGET_CLONES)
+#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define CLONES
+#endif
+
+/* ---- clouds ---- */
+
+pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error)
+{
+    *cloud = (pe_cloud){ .count = count };
+    cloud->x = malloc(count * 3 * sizeof *cloud->x);
+    cloud->weight_sr = malloc(count * 4 * sizeof *cloud->weight_sr);
+    if (!cloud->x || !cloud->weight_sr) {
+        pe_cloud_free(cloud);
+        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", count);
+    }
+    cloud->y = cloud->x + count;
+    cloud->z = cloud->y + count;
+    cloud->r = cloud->weight_sr + count;
+    cloud->g = cloud->r + count;
+    cloud->b = cloud->g + count;
+    return PE_OK;
+}
+
+void pe_cloud_free(pe_cloud *cloud)
+{
+    free(cloud->x);
+    free(cloud->weight_sr);
+    *cloud = (pe_cloud){ 0 };
+}
+
+pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error)
+{
+    const pe_grid *grid = &env->grid;
+    size_t light = 0;
+    pe_status status = pe_cloud_allocate((size_t)env->width * (size_t)env->height, cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    for (int y = 0; y < env->height; y++) {
+        float weight = (float)grid->solid_angle_sr[y];
+
+        for (int x = 0; x < env->width; x++, light++) {
+            double direction[3];
+
+            pe_grid_direction(grid, x, y, direction);
+            cloud->x[light] = direction[0];
+            cloud->y[light] = direction[1];
+            cloud->z[light] = direction[2];
+            cloud->weight_sr[light] = weight;
+            cloud->r[light] = weight * env->rgb[3 * light];
+            cloud->g[light] = weight * env->rgb[3 * light + 1];
+            cloud->b[light] = weight * env->rgb[3 * light + 2];
+        }
+    }
+    return PE_OK;
+}
+
+/* ---- lights of a hemisphere ---- */
+
+enum { X, Y, Z, WEIGHT, RED, GREEN, BLUE, VALUES };
+
+pe_status pe_lights_allocate(size_t cloud_count, pe_lights *lights, pe_error *error)
+{
+    size_t blocks = (cloud_count + PE_LIGHT_BLOCK - 1) / PE_LIGHT_BLOCK;
+
+    *lights = (pe_lights){ 0 };
+    lights->values = aligned_alloc(64, blocks * VALUES * PE_LIGHT_BLOCK * sizeof *lights->values);
+    lights->cones = malloc(blocks * sizeof *lights->cones);
+    if (!lights->values || !lights->cones) {
+        pe_lights_free(lights);
+        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", cloud_count);
+    }
+    return PE_OK;
+}
+
+void pe_lights_free(pe_lights *lights)
+{
+    free(lights->values);
+    free(lights->cones);
+    *lights = (pe_lights){ 0 };
+}
+
+static float *block_values(const pe_lights *lights, size_t block, int value)
+{
+    return lights->values + (block * VALUES + (size_t)value) * PE_LIGHT_BLOCK;
+}
+
+/* Lights of weight 0 straight above fill up the last block: they add exactly nothing. */
+static void pad_block(const pe_lights *lights, size_t block, size_t used)
+{
+    for (size_t k = used; k < PE_LIGHT_BLOCK; k++)
+        for (int value = 0; value < VALUES; value++)
+            block_values(lights, block, value)[k] = value == Z;
+}
+
+static void set_cone(const pe_lights *lights, size_t block, size_t used, double lobe_reach)
+{
+    pe_light_block *cone = &lights->cones[block];
+    const float *x = block_values(lights, block, X), *y = block_values(lights, block, Y);
+    const float *z = block_values(lights, block, Z);
+    double axis[3] = { 0, 0, 0 }, narrowest = 1, reach;
+
+    for (size_t k = 0; k < used; k++) {
+        axis[0] += (double)x[k];
+        axis[1] += (double)y[k];
+        axis[2] += (double)z[k];
+    }
+    pe_normalize(axis, axis);
+    for (size_t k = 0; k < used; k++)
+        narrowest = fmin(narrowest, axis[0] * (double)x[k] + axis[1] * (double)y[k] + axis[2] * (double)z[k]);
+    reach = acos(fmax(narrowest, -1)) + lobe_reach;
+    for (int c = 0; c < 3; c++)
+        cone->axis[c] = (float)axis[c];
+    cone->cos_reach = reach < M_PI ? (float)cos(reach) : -2;
+}
+
+void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights)
+{
+    size_t used = 0;
+
+    lights->blocks = 0;
+    for (size_t k = 0; k < cloud->count; k++) {
+        double world[3] = { cloud->x[k], cloud->y[k], cloud->z[k] }, local[3];
+        float *values;
+
+        local[2] = pe_dot(frame->n, world);
+        if (!(local[2] > 0))
+            continue;
+        pe_frame_coordinates(frame, world, local);
+        values = block_values(lights, lights->blocks, X) + used;
+        for (int c = 0; c < 3; c++)
+            values[c * PE_LIGHT_BLOCK] = (float)local[c];
+        values[WEIGHT * PE_LIGHT_BLOCK] = cloud->weight_sr[k];
+        values[RED * PE_LIGHT_BLOCK] = cloud->r[k];
+        values[GREEN * PE_LIGHT_BLOCK] = cloud->g[k];
+        values[BLUE * PE_LIGHT_BLOCK] = cloud->b[k];
+        if (++used == PE_LIGHT_BLOCK) {
+            set_cone(lights, lights->blocks++, used, lobe_reach);
+            used = 0;
+        }
+    }
+    if (used) {
+        pad_block(lights, lights->blocks, used);
+        set_cone(lights, lights->blocks++, used, lobe_reach);
+    }
+}
+
+double pe_lobe_reach(const pe_ndf *ndf, double limit)
+{
+    return 2 * atan(fmax(ndf->alpha_x, ndf->alpha_y) * sqrt(limit));
+}
+
+/* ---- the hot loop ---- */
+
+typedef struct lane_sums {
+    floats weight, r, g, b;
+} lane_sums;
+
+static inline __attribute__((always_inline)) floats load(const float *from)
+{
+    floats v;
+
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/* 2^-e for 0 <= e <= cutoff, 0 beyond. */
+static inline __attribute__((always_inline)) floats exp2_negative(floats e)
+{
+    const float cutoff = (float)(PE_LOBE_CUTOFF * M_LOG2E);
+    const float round_to_whole = 12582912.0f; /* 1.5 * 2^23: adding it leaves the whole part in the low bits */
+    ints inside = e <= cutoff;
+    floats near = (floats)((ints)e & inside);
+    floats shifted = round_to_whole - near;
+    floats f = -near - (shifted - round_to_whole);
+    ints k = (ints)shifted << 23;
+    floats p = 0.000154531634f * f + 0.00133908633f;
+
+    p = p * f + 0.00961808302f;
+    p = p * f + 0.0555035695f;
+    p = p * f + 0.240226507f;
+    p = p * f + 0.693147182f;
+    p = p * f + 1.0f;
+    return (floats)(((ints)p + k) & inside);
+}
+
+/* Adds one block's lights, seen from o, to the sums.  ax, ay: log2(e) / alpha^2 along t and b. */
+static inline __attribute__((always_inline)) void beckmann_block(const float *values, const float o[3], float ax,
+                                                                 float ay, lane_sums *sums)
+{
+    floats weight = sums->weight, r = sums->r, g = sums->g, b = sums->b;
+
+    for (int k = 0; k < PE_LIGHT_BLOCK; k += LANES) {
+        floats hx = load(values + X * PE_LIGHT_BLOCK + k) + o[0];
+        floats hy = load(values + Y * PE_LIGHT_BLOCK + k) + o[1];
+        floats hz = load(values + Z * PE_LIGHT_BLOCK + k) + o[2];
+        floats inverse = 1.0f / (hz * hz);
+        floats xx = hx * hx, yy = hy * hy;
+        floats cos2_inverse = 1.0f + (xx + yy) * inverse;
+        floats d = exp2_negative((xx * ax + yy * ay) * inverse) * (cos2_inverse * cos2_inverse);
+
+        weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
+        r += d * load(values + RED * PE_LIGHT_BLOCK + k);
+        g += d * load(values + GREEN * PE_LIGHT_BLOCK + k);
+        b += d * load(values + BLUE * PE_LIGHT_BLOCK + k);
+    }
+    *sums = (lane_sums){ weight, r, g, b };
+}
+
+static void flush(lane_sums *lanes, double sums[4])
+{
+    for (int k = 0; k < LANES; k++) {
+        sums[0] += (double)lanes->weight[k];
+        sums[1] += (double)lanes->r[k];
+        sums[2] += (double)lanes->g[k];
+        sums[3] += (double)lanes->b[k];
+    }
+    memset(lanes, 0, sizeof *lanes);
+}
+
+/* Single precision sums at most this many blocks before a double takes over. */
+#define BLOCKS_PER_FLUSH 8
+
+static inline __attribute__((always_inline)) int matters(const pe_light_block *cone, const float o[3])
+{
+    return cone->axis[2] * o[2] - cone->axis[0] * o[0] - cone->axis[1] * o[1] >= cone->cos_reach;
+}
+
+CLONES static void beckmann_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count,
+                                   double (*sums)[4])
+{
+    float ax = (float)(M_LOG2E / (ndf->alpha_x * ndf->alpha_x)), ay = (float)(M_LOG2E / (ndf->alpha_y * ndf->alpha_y));
+    lane_sums lanes[PE_FILTER_POINTS_MAX];
+
+    memset(lanes, 0, sizeof lanes);
+    for (size_t block = 0; block < lights->blocks; block++) {
+        const float *values = block_values(lights, block, X);
+
+        for (size_t k = 0; k < count; k++)
+            if (matters(&lights->cones[block], o[k]))
+                beckmann_block(values, o[k], ax, ay, &lanes[k]);
+        if (block % BLOCKS_PER_FLUSH == BLOCKS_PER_FLUSH - 1)
+            for (size_t k = 0; k < count; k++)
+                flush(&lanes[k], sums[k]);
+    }
+    for (size_t k = 0; k < count; k++)
+        flush(&lanes[k], sums[k]);
+}
+
+void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count, double (*sums)[4])
+{
+    memset(sums, 0, count * sizeof *sums);
+    beckmann_points(ndf, lights, o, count, sums);
+}

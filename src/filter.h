@@ -1,0 +1,60 @@
+/* filter.h - the hot loop: lights in a tangent frame, weighted by the NDF as a viewer sees it. [Motegi Eq. 5] */
+#ifndef PE_FILTER_H
+#define PE_FILTER_H
+
+#include "env.h"
+#include "prefenv.h"
+#include "vector.h"
+
+/* exp(-x) with x beyond this counts as 0, in production and in truth alike.  Single precision would turn denormal, and
+ * a lobe of which nothing is left lies between the texels: it is a mirror, see pe_bake and pe_exact. */
+#define PE_LOBE_CUTOFF 55.0
+
+/* Lights of the whole sphere: unit directions in the world, solid angle, and radiance times solid angle. */
+typedef struct pe_cloud {
+    size_t count;
+    double *x, *y, *z;
+    float *weight_sr, *r, *g, *b;
+} pe_cloud;
+
+pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error);
+void pe_cloud_free(pe_cloud *cloud);
+
+/* One light a texel. */
+pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error);
+
+#define PE_LIGHT_BLOCK 128
+
+/* A block's lights all lie within a cone about `axis`: seen from a mirror direction farther than reach from it, none
+ * of them matters.  cos_reach is the cosine of the cone's half angle plus the lobe's. */
+typedef struct pe_light_block {
+    float axis[3], cos_reach;
+} pe_light_block;
+
+/* The lights of one hemisphere, z > 0, in the tangent frame of its normal; padded to whole blocks with weight 0. */
+typedef struct pe_lights {
+    size_t blocks;
+    float *values; /* x, y, z, weight, r, g, b of block 0: PE_LIGHT_BLOCK floats each; then block 1 … */
+    pe_light_block *cones;
+} pe_lights;
+
+/* Room for as many lights as a cloud may put into one hemisphere: all of them. */
+pe_status pe_lights_allocate(size_t cloud_count, pe_lights *lights, pe_error *error);
+void pe_lights_free(pe_lights *lights);
+
+/* Fills lights with the hemisphere of the frame's normal.  lobe_reach: an angle from the mirror direction beyond which
+ * a light does not matter; pi or more: every light counts. */
+void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
+
+/* The angle from the mirror direction beyond which weights are below exp(-limit) of the mirror's.  A half vector moves
+ * by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
+double pe_lobe_reach(const pe_ndf *ndf, double limit);
+
+/* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,
+ * each times D(h). A common factor of D is left out: only ratios of sums mean anything. */
+void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count,
+                      double (*sums)[4]);
+
+#define PE_FILTER_POINTS_MAX 64 /* most points in one call */
+
+#endif

@@ -1,0 +1,209 @@
+/* geodesic.c - geodesic spheres of class I.
+ *
+ * Each face of the icosahedron carries the flat grid P(i, j) = (i A + j B + (f - i - j) C) / f; a vertex is P made
+ * unit.  Point location follows from that: the face of a direction is the one whose centre is nearest (the faces are
+ * the Voronoi cells of their centres); its gnomonic image on the flat face, scaled by f, lies in the unit cell
+ * (floor i, floor j), in the triangle on this or that side of the cell's diagonal. */
+#include "geodesic.h"
+
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FACES 20
+
+typedef struct face {
+    double centre[3];  /* unit */
+    double inverse[9]; /* rows a, b, c: coordinates of a direction along the corners A, B, C */
+    int *vertices;     /* vertex at grid point (i, j), at index i * (f + 1) + j */
+} face;
+
+struct pe_geodesic {
+    int frequency, count;
+    double (*vertices)[3];
+    double *lengths; /* of the flat grid point under each vertex, for barycentric weights of unit vertices */
+    face faces[FACES];
+    int *grids;
+};
+
+/* Cyclic permutations of (0, +-1, +-golden ratio), and the triples at edge length 2. */
+static void make_icosahedron(double corners[12][3], int faces[FACES][3])
+{
+    const double golden = (1 + sqrt(5)) / 2;
+    int found = 0;
+
+    for (int k = 0; k < 12; k++) {
+        double p[3] = { 0, k & 1 ? -1 : 1, k & 2 ? -golden : golden };
+
+        for (int c = 0; c < 3; c++)
+            corners[k][(c + k / 4) % 3] = p[c];
+        pe_normalize(corners[k], corners[k]);
+    }
+    for (int a = 0; a < 12; a++)
+        for (int b = a + 1; b < 12; b++)
+            for (int c = b + 1; c < 12; c++)
+                if (pe_dot(corners[a], corners[b]) > 0.4 && pe_dot(corners[b], corners[c]) > 0.4 &&
+                    pe_dot(corners[c], corners[a]) > 0.4) {
+                    faces[found][0] = a;
+                    faces[found][1] = b;
+                    faces[found++][2] = c;
+                }
+}
+
+static void make_face(face *f, const double a[3], const double b[3], const double c[3])
+{
+    double volume;
+
+    for (int k = 0; k < 3; k++)
+        f->centre[k] = a[k] + b[k] + c[k];
+    pe_normalize(f->centre, f->centre);
+    pe_cross(b, c, f->inverse);
+    pe_cross(c, a, f->inverse + 3);
+    pe_cross(a, b, f->inverse + 6);
+    volume = pe_dot(a, f->inverse);
+    for (int k = 0; k < 9; k++)
+        f->inverse[k] /= volume;
+}
+
+/* The pair whose members are p or -p, made if it is new; returns the vertex at p. */
+static int find_or_add(pe_geodesic *g, const double p[3], double length)
+{
+    for (int k = 0; k < g->count; k++)
+        if (pe_dot(g->vertices[k], p) > 1 - 1e-9)
+            return k;
+    for (int c = 0; c < 3; c++) {
+        g->vertices[g->count][c] = p[c];
+        g->vertices[g->count + 1][c] = -p[c];
+    }
+    g->lengths[g->count] = g->lengths[g->count + 1] = length;
+    g->count += 2;
+    return g->count - 2;
+}
+
+static void make_vertices(pe_geodesic *g, face *f, const double a[3], const double b[3], const double c[3])
+{
+    int n = g->frequency;
+
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; i + j <= n; j++) {
+            double p[3], length;
+
+            for (int k = 0; k < 3; k++)
+                p[k] = (i * a[k] + j * b[k] + (n - i - j) * c[k]) / n;
+            length = sqrt(pe_dot(p, p));
+            pe_scale(1 / length, p, p);
+            f->vertices[i * (n + 1) + j] = find_or_add(g, p, length);
+        }
+}
+
+pe_status pe_geodesic_make(int frequency, pe_geodesic **out, pe_error *error)
+{
+    size_t count = 10 * (size_t)frequency * (size_t)frequency + 2;
+    size_t grid = (size_t)(frequency + 1) * (size_t)(frequency + 1);
+    double corners[12][3];
+    int triples[FACES][3];
+    pe_geodesic *g = calloc(1, sizeof *g);
+
+    if (!g)
+        return pe_fail_memory(error, "a geodesic sphere");
+    g->frequency = frequency;
+    g->vertices = calloc(count, sizeof *g->vertices);
+    g->lengths = calloc(count, sizeof *g->lengths);
+    g->grids = calloc(FACES * grid, sizeof *g->grids);
+    if (!g->vertices || !g->lengths || !g->grids) {
+        pe_geodesic_free(g);
+        return pe_fail_memory(error, "a geodesic sphere");
+    }
+    make_icosahedron(corners, triples);
+    for (int k = 0; k < FACES; k++) {
+        const double *a = corners[triples[k][0]], *b = corners[triples[k][1]], *c = corners[triples[k][2]];
+
+        g->faces[k].vertices = g->grids + (size_t)k * grid;
+        make_face(&g->faces[k], a, b, c);
+        make_vertices(g, &g->faces[k], a, b, c);
+    }
+    *out = g;
+    return PE_OK;
+}
+
+void pe_geodesic_free(pe_geodesic *g)
+{
+    if (!g)
+        return;
+    free(g->vertices);
+    free(g->lengths);
+    free(g->grids);
+    free(g);
+}
+
+int pe_geodesic_count(const pe_geodesic *g)
+{
+    return g->count;
+}
+
+const double *pe_geodesic_vertex(const pe_geodesic *g, int index)
+{
+    return g->vertices[index];
+}
+
+static const face *nearest_face(const pe_geodesic *g, const double n[3])
+{
+    const face *best = g->faces;
+    double highest = -2;
+
+    for (int k = 0; k < FACES; k++) {
+        double cosine = pe_dot(g->faces[k].centre, n);
+
+        if (cosine > highest) {
+            highest = cosine;
+            best = &g->faces[k];
+        }
+    }
+    return best;
+}
+
+/* Corner `k` of the triangle: grid point and flat weight to vertex and weight on the unit vertices. */
+static void set_corner(const pe_geodesic *g, const face *f, int i, int j, double flat, int *vertex, double *weight)
+{
+    *vertex = f->vertices[i * (g->frequency + 1) + j];
+    *weight = (flat > 0 ? flat : 0) * g->lengths[*vertex];
+}
+
+void pe_geodesic_locate(const pe_geodesic *g, const double n[3], int vertices[3], double weights[3])
+{
+    const face *f = nearest_face(g, n);
+    int size = g->frequency;
+    double a = pe_dot(f->inverse, n), b = pe_dot(f->inverse + 3, n), c = pe_dot(f->inverse + 6, n);
+    double scale = size / (a + b + c);
+    double x = fmax(a * scale, 0), y = fmax(b * scale, 0);
+    int i, j;
+    double sum;
+
+    /* Rounding may leave the face by a hair: stay on its grid. */
+    i = x >= size ? size - 1 : (int)x;
+    j = y >= size - i ? size - i - 1 : (int)y;
+    x -= i;
+    y -= j;
+    if (x + y <= 1 || i + j + 2 > size) {
+        set_corner(g, f, i + 1, j, x, &vertices[0], &weights[0]);
+        set_corner(g, f, i, j + 1, y, &vertices[1], &weights[1]);
+        set_corner(g, f, i, j, 1 - x - y, &vertices[2], &weights[2]);
+    } else {
+        set_corner(g, f, i, j + 1, 1 - x, &vertices[0], &weights[0]);
+        set_corner(g, f, i + 1, j, 1 - y, &vertices[1], &weights[1]);
+        set_corner(g, f, i + 1, j + 1, x + y - 1, &vertices[2], &weights[2]);
+    }
+    sum = weights[0] + weights[1] + weights[2];
+    for (int k = 0; k < 3; k++)
+        weights[k] /= sum;
+}
+
+int pe_geodesic_frequency(int count)
+{
+    for (int f = 1; f <= PE_FREQUENCY_MAX; f++)
+        if (10 * f * f + 2 == count)
+            return f;
+    return 0;
+}
