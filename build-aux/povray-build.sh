@@ -1,7 +1,8 @@
 #!/bin/bash
 # povray-build.sh - build POV-Ray 3.7.0.10, patched or as it is, once, in a cache; then link it here.
 #
-#   povray-build.sh --source=DIR|TARBALL --cache=DIR [--patches=DIR --header=FILE] --output=FILE --share=DIR [LIBRARY...]
+#   povray-build.sh --source=DIR|TARBALL --cache=DIR --output=FILE --share=DIR
+#                   [--patches=DIR --header=FILE LIBRARY...]
 #
 # The slow part, everything but the final link, is kept in the cache under a key: a hash of all that decides what comes
 # out (source, patches, the header they include, compiler, flags, this script).  A change in libprefenv alone only links
@@ -153,11 +154,13 @@ show_progress()
 
 build()
 {
-    local work=$cache/.tmp.$key log=$cache/$key.log what status=0 watcher=
+    local work=$cache/.tmp.$key log=$cache/$key.log what status=0 builder= watcher=
 
     rm -rf "$cache"/.tmp.* # left by a build that was killed: we hold the lock
     mkdir "$work"
-    trap 'rm -rf "$work"; [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true' EXIT
+    trap '[ -z "$watcher" ] || kill "$watcher" || true
+        [ -z "$builder" ] || { kill -- -"$builder" && wait "$builder" || true; }
+        rm -rf "$work"' EXIT
     trap 'exit 130' INT TERM HUP
 
     what='unpatched, for the tests'
@@ -168,12 +171,16 @@ build()
         show_progress "$log" &
         watcher=$!
     fi
-    # In a shell of its own, for `set -e` is off wherever a status is looked at.
+    # In a shell of its own, for `set -e` is off wherever a status is looked at; in a process group of its own, so that
+    # an interruption ends all of it.
+    set -m
     (build_objects "$work") >"$log" 2>&1 </dev/null &
-    wait $! || status=$?
+    set +m
+    builder=$!
+    wait "$builder" || status=$?
+    builder=
     if [ -n "$watcher" ]; then
-        kill "$watcher" 2>/dev/null || true
-        wait "$watcher" 2>/dev/null || true
+        kill "$watcher" && wait "$watcher" || true
         watcher=
         printf '\r\033[K' >&2
     fi
