@@ -22,11 +22,13 @@ void pe_latlong_direction(double u, double v, double direction[3])
 void pe_latlong_coordinates(const double direction[3], double *u, double *v)
 {
     double turn = atan2(direction[2], direction[0]) / (2 * M_PI);
+    /* atan2 keeps its accuracy at the poles, where acos(y) loses half its digits. */
+    double fall = atan2(hypot(direction[0], direction[2]), direction[1]) / M_PI;
 
     turn = turn < 0 ? turn + 1 : turn;
-    *u = turn < 1 ? turn : 0; /* -1e-17 + 1 is 1 */
-    /* atan2 keeps its accuracy at the poles, where acos(y) loses half its digits. */
-    *v = atan2(hypot(direction[0], direction[2]), direction[1]) / M_PI;
+    /* -1e-17 + 1 is 1; and a direction that is not a number must not become an index that is none. */
+    *u = turn < 1 ? turn : 0;
+    *v = fall >= 0 ? fall : 0;
 }
 
 pe_status pe_grid_make(int width, int height, pe_grid *grid, pe_error *error)

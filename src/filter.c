@@ -194,13 +194,13 @@ static inline __attribute__((always_inline)) floats load(const float *from)
     return v;
 }
 
-/* 2^-e for 0 <= e <= cutoff, 0 beyond. */
-static inline __attribute__((always_inline)) floats exp2_negative(floats e)
+/* e becomes 2^-e for 0 <= e <= cutoff, 0 beyond. */
+static inline __attribute__((always_inline)) void exp2_negative(floats *e)
 {
     const float cutoff = (float)(PE_LOBE_CUTOFF * M_LOG2E);
     const float round_to_whole = 12582912.0f; /* 1.5 * 2^23: adding it leaves the whole part in the low bits */
-    ints inside = e <= cutoff;
-    floats near = (floats)((ints)e & inside);
+    ints inside = *e <= cutoff;
+    floats near = (floats)((ints)*e & inside);
     floats shifted = round_to_whole - near;
     floats f = -near - (shifted - round_to_whole);
     ints k = (ints)shifted << 23;
@@ -211,7 +211,7 @@ static inline __attribute__((always_inline)) floats exp2_negative(floats e)
     p = p * f + 0.240226507f;
     p = p * f + 0.693147182f;
     p = p * f + 1.0f;
-    return (floats)(((ints)p + k) & inside);
+    *e = (floats)(((ints)p + k) & inside);
 }
 
 /* Adds one block's lights, seen from o, to the sums.  ax, ay: log2(e) / alpha^2 along t and b. */
@@ -227,8 +227,10 @@ static inline __attribute__((always_inline)) void beckmann_block(const float *va
         floats inverse = 1.0f / (hz * hz);
         floats xx = hx * hx, yy = hy * hy;
         floats cos2_inverse = 1.0f + (xx + yy) * inverse;
-        floats d = exp2_negative((xx * ax + yy * ay) * inverse) * (cos2_inverse * cos2_inverse);
+        floats d = (xx * ax + yy * ay) * inverse;
 
+        exp2_negative(&d);
+        d *= cos2_inverse * cos2_inverse;
         weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
         r += d * load(values + RED * PE_LIGHT_BLOCK + k);
         g += d * load(values + GREEN * PE_LIGHT_BLOCK + k);

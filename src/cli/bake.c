@@ -43,7 +43,7 @@ static const cli_option options[] = {
     CLI_OPTION_ALPHA(bake_settings),
     CLI_OPTION_DIRECTION(bake_settings),
     {"normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), 0, 0, NULL, "42", 0,
-     "representative normals: 12, 42, 92, 162, ... 10 f^2 + 2, f up to 32"},
+     "representative normals: 12, 42, 92, 162, ... 10f^2+2, f up to 32"},
     {"size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
      "width and height of each map"},
     {"exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
@@ -75,7 +75,7 @@ static int check_normals(int normals)
     else if (f >= FREQUENCY_MAX)
         cli_error("bake", "--normals %d: the greatest count is %d", normals, count_of(FREQUENCY_MAX));
     else
-        cli_error("bake", "--normals %d is not 10 f^2 + 2; the nearest counts are %d and %d", normals, count_of(f),
+        cli_error("bake", "--normals %d is not 10f^2+2; the nearest counts are %d and %d", normals, count_of(f),
                   count_of(f + 1));
     return CLI_FAILURE;
 }
@@ -158,15 +158,6 @@ static pe_pixel_type choose_pixels(const bake_settings *settings, const pe_maps 
     return PE_PIXEL_FLOAT;
 }
 
-static void warn_of_repairs(const bake_settings *settings, const pe_env *env)
-{
-    size_t count = pe_env_repairs(env);
-
-    if (count && !settings->quiet)
-        cli_warning("bake", "%s: %zu NaN, infinite or negative %s repaired", settings->environment, count,
-                    count == 1 ? "texel was" : "texels were");
-}
-
 static void print_summary(const bake_settings *settings, const pe_maps *maps, double seconds)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
@@ -200,7 +191,8 @@ static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_err
 
     if (status != PE_OK)
         return status;
-    warn_of_repairs(settings, env);
+    if (!settings->quiet)
+        cli_warn_of_repairs("bake", settings->environment, env);
     status = bake_maps(settings, env, maps, error);
     pe_env_free(env);
     if (status != PE_OK)

@@ -2,6 +2,8 @@
 #ifndef CLI_H
 #define CLI_H
 
+#include "prefenv.h"
+
 #include <stddef.h>
 
 /* Exit codes, documented in prefenv(1).  A signal that stops the command shows as 128 + its number in the shell. */
@@ -14,6 +16,9 @@ enum {
 /* "prefenv: COMMAND: MESSAGE" on standard error, on one line whatever the message holds.  `command` may be NULL. */
 __attribute__((format(printf, 2, 3))) void cli_error(const char *command, const char *format, ...);
 __attribute__((format(printf, 2, 3))) void cli_warning(const char *command, const char *format, ...);
+
+/* One warning if texels of the environment read from `path` were repaired. */
+void cli_warn_of_repairs(const char *command, const char *path, const pe_env *env);
 
 /* The word among `count` that is nearest to what was typed, or NULL if none is near enough to be meant. */
 const char *cli_nearest(const char *typed, const char *const *words, size_t count);

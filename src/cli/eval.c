@@ -23,9 +23,9 @@ static const cli_choice interpolations[] = {
 static const cli_option options[] = {
     {"interpolation", 0, "NAME", CLI_CHOICE, offsetof(eval_settings, interpolation), 0, 0, interpolations, "linear", 0,
      "between the representative normals: nearest, weighted or linear"},
-    {"exponent", 0, "A", CLI_NUMBER, offsetof(eval_settings, exponent), 0.01, 1e6, NULL, NULL, 0,
-     "for weighted: the power of the cosine that weighs the normals. Default: 50 for 42 normals, 50 (f/2)^2 for "
-     "10 f^2 + 2"},
+    {"exponent", 0, "A", CLI_NUMBER, offsetof(eval_settings, exponent), 0.01, 1000000, NULL, NULL, 0,
+     "for weighted: the power of the cosine that weighs the normals. Default: 50 for 42 normals, 50(f/2)^2 for "
+     "10f^2+2"},
     CLI_OPTION_THREADS(eval_settings),
     {.name = NULL},
 };
@@ -42,6 +42,14 @@ static void look_up(const double n[3], const double o[3], const void *data, doub
     const lookup *l = data;
 
     pe_sample(l->maps, &l->sampling, n, o, rgb);
+}
+
+static int answer_lines(const eval_settings *settings, const pe_maps *maps)
+{
+    const lookup l = {maps, {(pe_interpolation)settings->interpolation, settings->exponent}};
+    const lines_job job = {"eval", settings->threads, LINES_PER_BLOCK, look_up, &l};
+
+    return lines_run(&job);
 }
 
 static int eval_run(int argc, char **argv)
@@ -61,12 +69,7 @@ static int eval_run(int argc, char **argv)
         cli_error("eval", "%s", error.message);
         return CLI_FAILURE;
     }
-    {
-        const lookup l = {maps, {(pe_interpolation)settings.interpolation, settings.exponent}};
-        const lines_job job = {"eval", settings.threads, LINES_PER_BLOCK, look_up, &l};
-
-        result = lines_run(&job);
-    }
+    result = answer_lines(&settings, maps);
     pe_maps_free(maps);
     return result;
 }

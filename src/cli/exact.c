@@ -36,6 +36,18 @@ static void sum_up(const double n[3], const double o[3], const void *data, doubl
     pe_exact(t->env, &t->ndf, t->direction, n, o, rgb);
 }
 
+static int answer_lines(const exact_settings *settings, const pe_env *env)
+{
+    const truth t = {
+        env,
+        {(pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1]},
+        {settings->direction[0], settings->direction[1], settings->direction[2]},
+    };
+    const lines_job job = {"exact", settings->threads, LINES_PER_BLOCK, sum_up, &t};
+
+    return lines_run(&job);
+}
+
 static int exact_run(int argc, char **argv)
 {
     exact_settings settings = {0};
@@ -49,17 +61,9 @@ static int exact_run(int argc, char **argv)
         cli_error("exact", "%s", error.message);
         return CLI_FAILURE;
     }
-    cli_warn_repairs("exact", settings.environment, env);
-    {
-        const truth t = {
-            env,
-            {(pe_ndf_kind)settings.ndf, settings.alpha[0], settings.alpha[1]},
-            {settings.direction[0], settings.direction[1], settings.direction[2]},
-        };
-        const lines_job job = {"exact", settings.threads, LINES_PER_BLOCK, sum_up, &t};
-
-        result = lines_run(&job);
-    }
+    if (!settings.quiet)
+        cli_warn_of_repairs("exact", settings.environment, env);
+    result = answer_lines(&settings, env);
     pe_env_free(env);
     return result;
 }

@@ -41,16 +41,17 @@ static void print_row(const char *label, const char *sentence)
 
 static void print_option(const cli_option *option)
 {
-    char label[80], letter[8] = "    ", sentence[512];
+    char label[80], letter[8] = "    ", sentence[512], range[CLI_RANGE_BYTES];
     int used;
 
     if (option->letter)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     snprintf(label, sizeof label, "%s--%s%s%s", letter, option->name, option->placeholder ? " " : "",
              option->placeholder ? option->placeholder : "");
+    cli_describe_range(option, range);
     used = snprintf(sentence, sizeof sentence, "%s", option->help);
-    if (option->low != 0 || option->high != 0)
-        used += snprintf(sentence + used, sizeof sentence - (size_t)used, "; %g to %g", option->low, option->high);
+    if (*range)
+        used += snprintf(sentence + used, sizeof sentence - (size_t)used, " (%s)", range);
     if (option->preset)
         snprintf(sentence + used, sizeof sentence - (size_t)used, " [%s]", option->preset);
     else if (option->required)

@@ -35,15 +35,16 @@ static const cli_command *find_command(const char *name)
 
 static int refuse_command(const char *name)
 {
-    const char *names[COMMAND_COUNT + 1] = {"help"}, *nearest;
+    const char *names[COMMAND_COUNT + 3] = {"help", "--help", "--version"}, *nearest;
+    const char *what = *name == '-' ? "option" : "command";
 
     for (int i = 0; i < COMMAND_COUNT; i++)
-        names[i + 1] = commands[i]->name;
-    nearest = cli_nearest(name, names, COMMAND_COUNT + 1);
+        names[i + 3] = commands[i]->name;
+    nearest = cli_nearest(name, names, COMMAND_COUNT + 3);
     if (nearest)
-        cli_error(NULL, "unknown %s '%s'; did you mean '%s'?", *name == '-' ? "option" : "command", name, nearest);
+        cli_error(NULL, "unknown %s '%s'; did you mean '%s'?", what, name, nearest);
     else
-        cli_error(NULL, "unknown %s '%s'; see 'prefenv --help'", *name == '-' ? "option" : "command", name);
+        cli_error(NULL, "unknown %s '%s'; see 'prefenv --help'", what, name);
     return CLI_FAILURE;
 }
 

@@ -27,7 +27,7 @@ typedef struct cli_option {
     const char *placeholder; /* what the help calls the value; NULL for a switch */
     cli_type type;
     size_t offset;             /* of the member in the settings */
-    double low, high;          /* range of each number; both 0: any */
+    double low, high;          /* range of each number, INFINITY: no upper end; both 0: any */
     const cli_choice *choices; /* CLI_CHOICE */
     const char *preset;        /* the default as a user would write it, stored before parsing; NULL: none */
     int required;
@@ -49,6 +49,8 @@ typedef struct cli_command {
     int (*run)(int argc, char **argv); /* argv[0] is the command's name; returns the exit code */
 } cli_command;
 
+enum { CLI_RANGE_BYTES = 64 };
+
 /* What cli_parse returns when the command is to go on. */
 enum { CLI_PROCEED = -1 };
 
@@ -58,6 +60,9 @@ int cli_parse(const cli_command *command, int argc, char **argv, void *settings)
 
 /* Stores the value `text` of an option.  CLI_FAILURE, with its error printed, if it is not acceptable. */
 int cli_store(const cli_command *command, const cli_option *option, const char *text, void *settings);
+
+/* "0.001 to 2", "0 or more"; "" if there is no range. */
+void cli_describe_range(const cli_option *option, char text[CLI_RANGE_BYTES]);
 
 /* Prints the help of a command to standard output, 80 columns wide at most. */
 void cli_help(const cli_command *command);

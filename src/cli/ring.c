@@ -1,7 +1,6 @@
 /* ring.c - see ring.h. */
 #include "ring.h"
 
-#include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -13,7 +12,7 @@ ring *ring_create(size_t count)
         return NULL;
     r->count = count;
     r->blocks = malloc(count * sizeof *r->blocks);
-    if (!r->blocks || pipe2(r->stop_pipe, O_CLOEXEC) != 0) {
+    if (!r->blocks || pipe(r->stop_pipe) != 0) {
         free(r->blocks);
         free(r);
         return NULL;

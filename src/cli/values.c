@@ -24,6 +24,25 @@ __attribute__((format(printf, 4, 5))) static int refuse(const cli_command *comma
     return CLI_FAILURE;
 }
 
+void cli_describe_range(const cli_option *option, char text[CLI_RANGE_BYTES])
+{
+    if (option->low == 0 && option->high == 0)
+        *text = '\0';
+    else if (isinf(option->high))
+        snprintf(text, CLI_RANGE_BYTES, "%.10g or more", option->low);
+    else
+        snprintf(text, CLI_RANGE_BYTES, "%.10g to %.10g", option->low, option->high);
+}
+
+/* A value outside the table's range. */
+static int refuse_range(const cli_command *command, const cli_option *option, const char *text)
+{
+    char range[CLI_RANGE_BYTES];
+
+    cli_describe_range(option, range);
+    return refuse(command, option, text, "out of range: %s", range);
+}
+
 static int in_range(const cli_option *option, double value)
 {
     return (option->low == 0 && option->high == 0) || (value >= option->low && value <= option->high);
@@ -65,7 +84,7 @@ static int store_integer(const cli_command *command, const cli_option *option, c
     if (end == text || *end)
         return refuse(command, option, text, "a whole number is wanted");
     if (errno || value < INT_MIN || value > INT_MAX || !in_range(option, (double)value))
-        return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+        return refuse_range(command, option, text);
     *target = (int)value;
     return CLI_SUCCESS;
 }
@@ -77,7 +96,7 @@ static int store_number(const cli_command *command, const cli_option *option, co
     if (read_numbers(text, ',', 1, &value) != 1)
         return refuse(command, option, text, "a number is wanted");
     if (!in_range(option, value))
-        return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+        return refuse_range(command, option, text);
     *target = value;
     return CLI_SUCCESS;
 }
@@ -93,7 +112,7 @@ static int store_pair(const cli_command *command, const cli_option *option, cons
         values[1] = values[0];
     for (int i = 0; i < 2; i++)
         if (!in_range(option, values[i]))
-            return refuse(command, option, text, "must be from %g to %g", option->low, option->high);
+            return refuse_range(command, option, text);
     memcpy(target, values, sizeof values);
     return CLI_SUCCESS;
 }
@@ -125,7 +144,7 @@ static int store_size(const cli_command *command, const cli_option *option, cons
         return refuse(command, option, text, "width and height are wanted, as in 400x200");
     for (int i = 0; i < 2; i++)
         if (errno || size[i] < (long)option->low || size[i] > (long)option->high)
-            return refuse(command, option, text, "width and height must be from %g to %g", option->low, option->high);
+            return refuse_range(command, option, text);
     target[0] = (int)size[0];
     target[1] = (int)size[1];
     return CLI_SUCCESS;

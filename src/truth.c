@@ -1,0 +1,163 @@
+/* truth.c - the slow exact answers: every texel in double precision, and Monte Carlo. [Motegi Eq. 4] */
+#include "env.h"
+#include "filter.h"
+#include "prefenv.h"
+#include "vector.h"
+
+#include <stdint.h>
+#include <string.h>
+
+/* A surface point in the frame of its normal: the viewer o is unit and above the surface. */
+typedef struct view {
+    pe_frame frame;
+    double o[3]; /* tangent coordinates */
+} view;
+
+static const double plus_y[3] = { 0, 1, 0 };
+
+static void make_view(const double direction[3], const double n[3], const double o[3], view *v)
+{
+    double unit_n[3], unit_o[3];
+
+    pe_normalize(n, unit_n);
+    pe_normalize(o, unit_o);
+    if (pe_dot(unit_n, unit_o) < 0)
+        pe_scale(-1, unit_n, unit_n);
+    pe_frame_make(unit_n, pe_dot(direction, direction) > 0 ? direction : plus_y, &v->frame);
+    pe_frame_coordinates(&v->frame, unit_o, v->o);
+}
+
+/* The lobe's limit as it narrows below a texel: what a mirror shows. */
+static void mirror(const pe_env *env, const view *v, double rgb[3])
+{
+    double r[3] = { -v->o[0], -v->o[1], v->o[2] }, world[3];
+
+    pe_frame_direction(&v->frame, r, world);
+    pe_env_lookup(env, world, rgb);
+}
+
+/* D(h), up to the factor that cancels, of the light w; both in tangent coordinates and above the surface. */
+static double lobe_weight(const pe_ndf *ndf, const double o[3], const double w[3])
+{
+    double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] };
+    double p = h[0] / (h[2] * ndf->alpha_x), q = h[1] / (h[2] * ndf->alpha_y);
+
+    if (!(p * p + q * q <= PE_LOBE_CUTOFF))
+        return 0;
+    pe_normalize(h, h);
+    return pe_ndf_evaluate(ndf, h);
+}
+
+/* Adds one row of texels to sums: weight, red, green, blue. */
+static void add_row(const pe_env *env, const pe_ndf *ndf, const view *v, int y, double sums[4])
+{
+    const float *texel = env->rgb + 3 * (size_t)y * (size_t)env->width;
+
+    for (int x = 0; x < env->width; x++, texel += 3) {
+        double world[3], w[3], weight;
+
+        pe_grid_direction(&env->grid, x, y, world);
+        w[2] = pe_dot(v->frame.n, world);
+        if (!(w[2] > 0))
+            continue;
+        pe_frame_coordinates(&v->frame, world, w);
+        weight = lobe_weight(ndf, v->o, w) * env->grid.solid_angle_sr[y];
+        sums[0] += weight;
+        for (int c = 0; c < 3; c++)
+            sums[c + 1] += weight * (double)texel[c];
+    }
+}
+
+void pe_exact(const pe_env *env, const pe_ndf *ndf, const double direction[3], const double n[3], const double o[3],
+              double rgb[3])
+{
+    double sums[4] = { 0 };
+    view v;
+
+    make_view(direction, n, o, &v);
+    for (int y = 0; y < env->height; y++)
+        add_row(env, ndf, &v, y, sums);
+    if (sums[0] > 0)
+        pe_scale(1 / sums[0], sums + 1, rgb);
+    else
+        mirror(env, &v, rgb);
+}
+
+/* ---- Monte Carlo ---- */
+
+/* SplitMix64 (Steele, Lea, Flood 2014): one step. */
+static uint64_t scramble(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static double unit_interval(uint64_t bits)
+{
+    return (double)(bits >> 11) * 0x1p-53;
+}
+
+/* Two offsets in [0, 1) that depend on the view alone. */
+static void view_offsets(const double n[3], const double o[3], double offsets[2])
+{
+    uint64_t state = 0;
+
+    for (int c = 0; c < 3; c++) {
+        uint64_t bits[2];
+
+        memcpy(&bits[0], &n[c], sizeof bits[0]);
+        memcpy(&bits[1], &o[c], sizeof bits[1]);
+        for (int k = 0; k < 2; k++) {
+            state ^= bits[k];
+            state = scramble(&state);
+        }
+    }
+    offsets[0] = unit_interval(scramble(&state));
+    offsets[1] = unit_interval(scramble(&state));
+}
+
+/* A half vector drawn with density D cos(theta_h) sends the viewer's ray to w = reflect(o, h), with density
+ * D cos(theta_h) / (4 o.h) per steradian of w; Eq. 4 weighs w by D, so the sample counts (o.h) / cos(theta_h). */
+static void add_sample(const pe_env *env, const view *v, const double h[3], double sums[4])
+{
+    double w[3], world[3], weight, o_h = pe_dot(v->o, h);
+    const float *texel;
+
+    if (!(o_h > 0))
+        return;
+    pe_reflect(v->o, h, w);
+    if (!(w[2] > 0))
+        return;
+    pe_frame_direction(&v->frame, w, world);
+    texel = pe_env_texel(env, world);
+    weight = o_h / h[2];
+    sums[0] += weight;
+    for (int c = 0; c < 3; c++)
+        sums[c + 1] += weight * (double)texel[c];
+}
+
+/* Points of the plastic-number lattice (Roberts 2018, "R2"), shifted by the view's offsets: evenly spread in a pixel,
+ * unrelated between pixels. */
+void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction[3], int samples, const double n[3],
+                    const double o[3], double rgb[3])
+{
+    const double plastic = 1.32471795724474602596;
+    double sums[4] = { 0 }, offsets[2];
+    view v;
+
+    make_view(direction, n, o, &v);
+    view_offsets(n, o, offsets);
+    for (int k = 0; k < samples; k++) {
+        double u1 = offsets[0] + k / plastic, u2 = offsets[1] + k / (plastic * plastic), h[3];
+
+        pe_ndf_sample(ndf, u1 - floor(u1), u2 - floor(u2), h);
+        add_sample(env, &v, h, sums);
+    }
+    if (sums[0] > 0)
+        pe_scale(1 / sums[0], sums + 1, rgb);
+    else
+        mirror(env, &v, rgb);
+}
