@@ -23,39 +23,39 @@ typedef struct bake_settings {
 } bake_settings;
 
 static const cli_operand operands[] = {
-    {"ENV", offsetof(bake_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG"},
-    {NULL, 0, NULL},
+    { "ENV", offsetof(bake_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG" },
+    { NULL, 0, NULL },
 };
 
 static const cli_choice methods[] = {
-    {"representative", PE_METHOD_REPRESENTATIVE},
-    {"baseline", PE_METHOD_BASELINE},
-    {NULL, 0},
+    { "representative", PE_METHOD_REPRESENTATIVE },
+    { "baseline", PE_METHOD_BASELINE },
+    { NULL, 0 },
 };
 
 static const cli_option options[] = {
-    {"output", 'o', "MAPS", CLI_TEXT, offsetof(bake_settings, output), 0, 0, NULL, NULL, 1,
-     "the maps file to write, an OpenEXR; it appears whole or not at all"},
-    {"method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, "representative", 0,
-     "representative: a map for each of --normals; baseline: one map, its lobe the one at normal incidence, for "
-     "comparison"},
+    { "output", 'o', "MAPS", CLI_TEXT, offsetof(bake_settings, output), 0, 0, NULL, NULL, 1,
+      "the maps file to write, an OpenEXR; it appears whole or not at all" },
+    { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, "representative", 0,
+      "representative: a map for each of --normals; baseline: one map, its lobe the one at normal incidence, for "
+      "comparison" },
     CLI_OPTION_NDF(bake_settings),
     CLI_OPTION_ALPHA(bake_settings),
     CLI_OPTION_DIRECTION(bake_settings),
-    {"normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), 0, 0, NULL, "42", 0,
-     "representative normals: 12, 42, 92, 162, ... 10f^2+2, f up to 32"},
-    {"size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
-     "width and height of each map"},
-    {"exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
-     "weigh every texel of the environment. Default: exact up to 400x200 texels of ENV, fast above"},
-    {"fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
-     "gather texels in clusters; the error is estimated and recorded"},
-    {"float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
-     "store 32-bit floats, not half floats"},
+    { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), 0, 0, NULL, "42", 0,
+      "representative normals: 12, 42, 92, 162, ... 10f^2+2, f up to 32" },
+    { "size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
+      "width and height of each map" },
+    { "exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
+      "weigh every texel of the environment. Default: exact up to 400x200 texels of ENV, fast above" },
+    { "fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
+      "gather texels in clusters; the error is estimated and recorded" },
+    { "float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
+      "store 32-bit floats, not half floats" },
     CLI_OPTION_THREADS(bake_settings),
     CLI_OPTION_JSON(bake_settings),
     CLI_OPTION_QUIET(bake_settings),
-    {.name = NULL},
+    { .name = NULL },
 };
 
 static int count_of(int frequency)
@@ -82,7 +82,7 @@ static int check_normals(int normals)
 
 static int check_settings(const bake_settings *settings)
 {
-    const char *inputs[] = {settings->environment, NULL};
+    const char *inputs[] = { settings->environment, NULL };
 
     if (settings->exact && settings->fast) {
         cli_error("bake", "--exact and --fast exclude each other; give one of them");
@@ -112,8 +112,8 @@ static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_
     pe_status status;
     pe_bake_options bake = {
         .method = (pe_method)settings->method,
-        .ndf = {(pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1]},
-        .direction = {settings->direction[0], settings->direction[1], settings->direction[2]},
+        .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1] },
+        .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
         .width = settings->size[0],
         .height = settings->size[1],
@@ -166,7 +166,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
     double bytes = stat(settings->output, &status) == 0 ? (double)status.st_size : 0;
 
     if (settings->json) {
-        json out = {0};
+        json out = { 0 };
 
         json_open(&out, NULL);
         json_text(&out, "file", settings->output);
@@ -180,7 +180,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
         return;
     describe_accuracy(info, accuracy);
     fprintf(stderr, "%s: %d %s of %dx%d, %.1f MB, in %.1f s, %s\n", settings->output, info->images,
-           info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy);
+            info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy);
 }
 
 /* Bakes and writes; on success *maps is the caller's. */
@@ -205,7 +205,7 @@ static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_err
 
 static int bake_run(int argc, char **argv)
 {
-    bake_settings settings = {0};
+    bake_settings settings = { 0 };
     double begun = clock_seconds();
     pe_maps *maps;
     pe_error error;

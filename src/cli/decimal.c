@@ -14,8 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+static const double powers[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
 
 enum { POWER_MAX = 22, DIGITS_MAX = 18 }; /* 18 digits fit 64 bits */
 
@@ -61,7 +61,7 @@ static const char *parse_slowly(const char *text, double *value)
 const char *decimal_parse(const char *text, double *value)
 {
     const char *start = text + (*text == '-' || *text == '+'), *c, *point;
-    digits number = {0, 0};
+    digits number = { 0, 0 };
     int exponent = 0;
 
     c = read_digits(start, &number);

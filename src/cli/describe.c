@@ -39,8 +39,8 @@ void describe_maps(const pe_maps_info *info)
 
 void describe_maps_json(json *out, const pe_maps_info *info)
 {
-    const double alpha[2] = {info->ndf.alpha_x, info->ndf.alpha_y};
-    const double direction[3] = {info->direction[0], info->direction[1], info->direction[2]};
+    const double alpha[2] = { info->ndf.alpha_x, info->ndf.alpha_y };
+    const double direction[3] = { info->direction[0], info->direction[1], info->direction[2] };
 
     json_integer(out, "format_version", info->format_version);
     json_text(out, "method", method_name(info->method));

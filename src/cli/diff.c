@@ -18,25 +18,25 @@ typedef struct diff_settings {
 } diff_settings;
 
 static const cli_operand operands[] = {
-    {"IMAGE", offsetof(diff_settings, image), "the picture: OpenEXR, Radiance HDR or PNG"},
-    {"REFERENCE", offsetof(diff_settings, reference), "what it should be, of the same size"},
-    {NULL, 0, NULL},
+    { "IMAGE", offsetof(diff_settings, image), "the picture: OpenEXR, Radiance HDR or PNG" },
+    { "REFERENCE", offsetof(diff_settings, reference), "what it should be, of the same size" },
+    { NULL, 0, NULL },
 };
 
 static const cli_option options[] = {
-    {"mask", 0, "IMAGE", CLI_TEXT, offsetof(diff_settings, mask), 0, 0, NULL, NULL, 0,
-     "count only the pixels where this picture's alpha, or its luminance if it is opaque, is above 1/2"},
-    {"output", 'o', "DIFF.png", CLI_TEXT, offsetof(diff_settings, output), 0, 0, NULL, NULL, 0,
-     "write a picture of the absolute differences"},
-    {"amplify", 0, "FACTOR", CLI_NUMBER, offsetof(diff_settings, amplify), 0.001, 1000000, NULL, "4", 0,
-     "multiply the differences in that picture"},
-    {"fail-above", 0, "RMSE", CLI_NUMBER, offsetof(diff_settings, limit), 0, INFINITY, NULL, NULL, 0,
-     "exit with 1 if the RMSE is greater"},
-    {"fail-above-relative", 0, "R", CLI_NUMBER, offsetof(diff_settings, relative_limit), 0, INFINITY, NULL, NULL, 0,
-     "exit with 1 if the relative RMSE is greater"},
+    { "mask", 0, "IMAGE", CLI_TEXT, offsetof(diff_settings, mask), 0, 0, NULL, NULL, 0,
+      "count only the pixels where this picture's alpha, or its luminance if it is opaque, is above 1/2" },
+    { "output", 'o', "DIFF.png", CLI_TEXT, offsetof(diff_settings, output), 0, 0, NULL, NULL, 0,
+      "write a picture of the absolute differences" },
+    { "amplify", 0, "FACTOR", CLI_NUMBER, offsetof(diff_settings, amplify), 0.001, 1000000, NULL, "4", 0,
+      "multiply the differences in that picture" },
+    { "fail-above", 0, "RMSE", CLI_NUMBER, offsetof(diff_settings, limit), 0, INFINITY, NULL, NULL, 0,
+      "exit with 1 if the RMSE is greater" },
+    { "fail-above-relative", 0, "R", CLI_NUMBER, offsetof(diff_settings, relative_limit), 0, INFINITY, NULL, NULL, 0,
+      "exit with 1 if the relative RMSE is greater" },
     CLI_OPTION_JSON(diff_settings),
     CLI_OPTION_QUIET(diff_settings),
-    {.name = NULL},
+    { .name = NULL },
 };
 
 typedef struct pictures {
@@ -58,8 +58,8 @@ static int check_size(const char *path, const pe_image *picture, const char *oth
 {
     if (picture->width == other->width && picture->height == other->height)
         return CLI_SUCCESS;
-    cli_error("diff", "%s is %dx%d, but %s is %dx%d; the sizes must be the same", path, picture->width,
-              picture->height, other_path, other->width, other->height);
+    cli_error("diff", "%s is %dx%d, but %s is %dx%d; the sizes must be the same", path, picture->width, picture->height,
+              other_path, other->width, other->height);
     return CLI_FAILURE;
 }
 
@@ -110,7 +110,7 @@ static void print_text(const measures *m)
 
 static void print_json(const diff_settings *settings, const pictures *all, const measures *m)
 {
-    json out = {0};
+    json out = { 0 };
 
     json_open(&out, NULL);
     json_text(&out, "image", settings->image);
@@ -162,7 +162,7 @@ static int judge(const diff_settings *settings, const measures *m)
 static int write_picture(const diff_settings *settings, const pictures *all)
 {
     pe_image picture;
-    pe_error error = {PE_ERROR_MEMORY, "out of memory"};
+    pe_error error = { PE_ERROR_MEMORY, "out of memory" };
     pe_status status = measure_picture(&all->image, &all->reference, all->keep, settings->amplify, &picture);
 
     if (status == PE_OK) {
@@ -191,10 +191,11 @@ static int compare(const diff_settings *settings, const pictures *all)
 
 static int check_output(const diff_settings *settings)
 {
-    const char *inputs[] = {settings->image, settings->reference, settings->mask, NULL};
+    const char *inputs[] = { settings->image, settings->reference, settings->mask, NULL };
     size_t length = strlen(settings->output);
 
-    if (length >= 4 && strchr(settings->output + length - 4, '.') && strcasecmp(settings->output + length - 4, ".png")) {
+    if (length >= 4 && strchr(settings->output + length - 4, '.') &&
+        strcasecmp(settings->output + length - 4, ".png")) {
         cli_error("diff", "%s: the picture of differences is a PNG; name it so", settings->output);
         return CLI_FAILURE;
     }
@@ -203,7 +204,7 @@ static int check_output(const diff_settings *settings)
 
 static int diff_run(int argc, char **argv)
 {
-    diff_settings settings = {.limit = -1, .relative_limit = -1};
+    diff_settings settings = { .limit = -1, .relative_limit = -1 };
     pictures all;
     int result = cli_parse(&diff_command, argc, argv, &settings);
 

@@ -11,23 +11,23 @@ typedef struct eval_settings {
     int threads;
 } eval_settings;
 
-static const cli_operand operands[] = {{"MAPS", offsetof(eval_settings, maps), "a maps file"}, {NULL, 0, NULL}};
+static const cli_operand operands[] = { { "MAPS", offsetof(eval_settings, maps), "a maps file" }, { NULL, 0, NULL } };
 
 static const cli_choice interpolations[] = {
-    {"nearest", PE_INTERPOLATION_NEAREST},
-    {"weighted", PE_INTERPOLATION_WEIGHTED},
-    {"linear", PE_INTERPOLATION_LINEAR},
-    {NULL, 0},
+    { "nearest", PE_INTERPOLATION_NEAREST },
+    { "weighted", PE_INTERPOLATION_WEIGHTED },
+    { "linear", PE_INTERPOLATION_LINEAR },
+    { NULL, 0 },
 };
 
 static const cli_option options[] = {
-    {"interpolation", 0, "NAME", CLI_CHOICE, offsetof(eval_settings, interpolation), 0, 0, interpolations, "linear", 0,
-     "between the representative normals: nearest, weighted or linear"},
-    {"exponent", 0, "A", CLI_NUMBER, offsetof(eval_settings, exponent), 0.01, 1000000, NULL, NULL, 0,
-     "for weighted: the power of the cosine that weighs the normals. Default: 50 for 42 normals, 50(f/2)^2 for "
-     "10f^2+2"},
+    { "interpolation", 0, "NAME", CLI_CHOICE, offsetof(eval_settings, interpolation), 0, 0, interpolations, "linear", 0,
+      "between the representative normals: nearest, weighted or linear" },
+    { "exponent", 0, "A", CLI_NUMBER, offsetof(eval_settings, exponent), 0.01, 1000000, NULL, NULL, 0,
+      "for weighted: the power of the cosine that weighs the normals. Default: 50 for 42 normals, 50(f/2)^2 for "
+      "10f^2+2" },
     CLI_OPTION_THREADS(eval_settings),
-    {.name = NULL},
+    { .name = NULL },
 };
 
 enum { LINES_PER_BLOCK = 2048 };
@@ -46,15 +46,15 @@ static void look_up(const double n[3], const double o[3], const void *data, doub
 
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)
 {
-    const lookup l = {maps, {(pe_interpolation)settings->interpolation, settings->exponent}};
-    const lines_job job = {"eval", settings->threads, LINES_PER_BLOCK, look_up, &l};
+    const lookup l = { maps, { (pe_interpolation)settings->interpolation, settings->exponent } };
+    const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, look_up, &l };
 
     return lines_run(&job);
 }
 
 static int eval_run(int argc, char **argv)
 {
-    eval_settings settings = {0};
+    eval_settings settings = { 0 };
     pe_maps *maps;
     pe_error error;
     int result = cli_parse(&eval_command, argc, argv, &settings);

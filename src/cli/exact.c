@@ -12,13 +12,13 @@ typedef struct exact_settings {
 } exact_settings;
 
 static const cli_operand operands[] = {
-    {"ENV", offsetof(exact_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG"},
-    {NULL, 0, NULL},
+    { "ENV", offsetof(exact_settings, environment), "lat-long environment: OpenEXR, Radiance HDR or PNG" },
+    { NULL, 0, NULL },
 };
 
 static const cli_option options[] = {
     CLI_OPTION_NDF(exact_settings),     CLI_OPTION_ALPHA(exact_settings), CLI_OPTION_DIRECTION(exact_settings),
-    CLI_OPTION_THREADS(exact_settings), CLI_OPTION_QUIET(exact_settings), {.name = NULL},
+    CLI_OPTION_THREADS(exact_settings), CLI_OPTION_QUIET(exact_settings), { .name = NULL },
 };
 
 enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels do */
@@ -40,17 +40,17 @@ static int answer_lines(const exact_settings *settings, const pe_env *env)
 {
     const truth t = {
         env,
-        {(pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1]},
-        {settings->direction[0], settings->direction[1], settings->direction[2]},
+        { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1] },
+        { settings->direction[0], settings->direction[1], settings->direction[2] },
     };
-    const lines_job job = {"exact", settings->threads, LINES_PER_BLOCK, sum_up, &t};
+    const lines_job job = { "exact", settings->threads, LINES_PER_BLOCK, sum_up, &t };
 
     return lines_run(&job);
 }
 
 static int exact_run(int argc, char **argv)
 {
-    exact_settings settings = {0};
+    exact_settings settings = { 0 };
     pe_env *env;
     pe_error error;
     int result = cli_parse(&exact_command, argc, argv, &settings);

@@ -11,13 +11,13 @@ typedef struct info_settings {
     int json;
 } info_settings;
 
-static const cli_operand operands[] = {{"MAPS", offsetof(info_settings, maps), "a maps file"}, {NULL, 0, NULL}};
+static const cli_operand operands[] = { { "MAPS", offsetof(info_settings, maps), "a maps file" }, { NULL, 0, NULL } };
 
-static const cli_option options[] = {CLI_OPTION_JSON(info_settings), {.name = NULL}};
+static const cli_option options[] = { CLI_OPTION_JSON(info_settings), { .name = NULL } };
 
 static int info_run(int argc, char **argv)
 {
-    info_settings settings = {0};
+    info_settings settings = { 0 };
     pe_maps *maps;
     pe_error error;
     int proceed = cli_parse(&info_command, argc, argv, &settings);
@@ -29,7 +29,7 @@ static int info_run(int argc, char **argv)
         return CLI_FAILURE;
     }
     if (settings.json) {
-        json out = {0};
+        json out = { 0 };
 
         json_open(&out, NULL);
         json_text(&out, "file", settings.maps);

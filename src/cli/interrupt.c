@@ -8,7 +8,7 @@
 
 static volatile sig_atomic_t noted; /* a signal handler can reach nothing else */
 
-static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
+static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
 
 static void note_signal(int number)
 {
@@ -19,7 +19,7 @@ static void note_signal(int number)
 void interrupt_catch(void)
 {
     for (size_t i = 0; i < sizeof caught / sizeof caught[0]; i++) {
-        struct sigaction old, action = {.sa_handler = note_signal, .sa_flags = SA_RESTART};
+        struct sigaction old, action = { .sa_handler = note_signal, .sa_flags = SA_RESTART };
 
         sigemptyset(&action.sa_mask);
         if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)

@@ -38,7 +38,7 @@ static size_t measure_lines(const reader *in, int lines_per_block)
 /* Waits for input or for the end of all work, then reads once. */
 static void read_more(reader *in, const ring *blocks)
 {
-    struct pollfd wait[2] = {{STDIN_FILENO, POLLIN, 0}, {blocks->stop_pipe[0], POLLIN, 0}};
+    struct pollfd wait[2] = { { STDIN_FILENO, POLLIN, 0 }, { blocks->stop_pipe[0], POLLIN, 0 } };
     ssize_t got;
 
     memmove(in->bytes, in->bytes + in->begin, in->end - in->begin);
@@ -88,8 +88,8 @@ static void compute_block(const lines_job *job, block *b)
     b->failed = 0;
     while (line < stop) {
         const char *feed = memchr(line, '\n', (size_t)(stop - line));
-        int size = query_answer(line, (size_t)(feed - line), job->function, job->data, b->output + b->output_size,
-                                b->error);
+        int size =
+            query_answer(line, (size_t)(feed - line), job->function, job->data, b->output + b->output_size, b->error);
 
         b->lines++;
         if (size < 0) {
@@ -121,7 +121,7 @@ static void *work(void *data)
 static int write_bytes(const char *bytes, size_t size)
 {
     while (size) {
-        struct pollfd wait = {STDOUT_FILENO, POLLOUT, 0};
+        struct pollfd wait = { STDOUT_FILENO, POLLOUT, 0 };
         ssize_t put = write(STDOUT_FILENO, bytes, size);
 
         if (put < 0 && errno == EAGAIN)
@@ -202,7 +202,7 @@ int lines_run(const lines_job *job)
     int result = CLI_FAILURE;
     reader *in = calloc(1, sizeof *in);
     ring *blocks;
-    crew us = {job, NULL};
+    crew us = { job, NULL };
 
     workers = workers > THREADS_MAX ? THREADS_MAX : workers;
     blocks = ring_create(2 * (size_t)workers + 2);

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const cli_command *const commands[] = {&bake_command, &info_command, &eval_command, &exact_command,
-                                              &diff_command};
+static const cli_command *const commands[] = { &bake_command, &info_command, &eval_command, &exact_command,
+                                               &diff_command };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
@@ -18,7 +18,7 @@ enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
  * would take its place and be written to as if it were the output. */
 static void hold_standard_streams(void)
 {
-    static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+    static const int modes[] = { O_WRONLY, O_RDONLY, O_RDONLY };
 
     for (int fd = 0; fd < 3; fd++)
         if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", modes[fd]) != fd)
@@ -35,7 +35,7 @@ static const cli_command *find_command(const char *name)
 
 static int refuse_command(const char *name)
 {
-    const char *names[COMMAND_COUNT + 3] = {"help", "--help", "--version"}, *nearest;
+    const char *names[COMMAND_COUNT + 3] = { "help", "--help", "--version" }, *nearest;
     const char *what = *name == '-' ? "option" : "command";
 
     for (int i = 0; i < COMMAND_COUNT; i++)

@@ -98,7 +98,7 @@ static void conclude(const sums *s, measures *m)
 
 void measure_difference(const pe_image *image, const pe_image *reference, const unsigned char *keep, measures *result)
 {
-    sums s = {0};
+    sums s = { 0 };
     size_t i = 0;
 
     memset(result, 0, sizeof *result);
@@ -121,7 +121,7 @@ void measure_difference(const pe_image *image, const pe_image *reference, const 
 pe_status measure_picture(const pe_image *image, const pe_image *reference, const unsigned char *keep, double amplify,
                           pe_image *picture)
 {
-    static const float magenta[3] = {1, 0, 1};
+    static const float magenta[3] = { 1, 0, 1 };
     size_t count = pixel_count(image);
 
     picture->width = image->width;

@@ -12,7 +12,7 @@
 #define LONG_VALUE 256 /* getopt_long's value of option i is LONG_VALUE + i; letters lie below */
 #define HELP_VALUE (LONG_VALUE + OPTIONS_MAX)
 
-const cli_choice cli_ndfs[] = {{"beckmann", PE_NDF_BECKMANN}, {NULL, 0}};
+const cli_choice cli_ndfs[] = { { "beckmann", PE_NDF_BECKMANN }, { NULL, 0 } };
 
 typedef struct getopt_tables {
     struct option longs[OPTIONS_MAX + 2];

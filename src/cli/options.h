@@ -72,22 +72,35 @@ void cli_wrap(const char *text, int column, int indent);
 
 /* Rows that several tables share. */
 #define CLI_OPTION_THREADS(settings) \
-    {"threads", 0, "N", CLI_INTEGER, offsetof(settings, threads), 1, 256, NULL, NULL, 0, \
-     "how many threads work; the result is the same for any number. Default: one a processor"}
+    { \
+        "threads", 0, "N", CLI_INTEGER, offsetof(settings, threads), 1, 256, NULL, NULL, 0, \
+            "how many threads work; the result is the same for any number. Default: one a processor" \
+    }
 #define CLI_OPTION_JSON(settings) \
-    {"json", 0, NULL, CLI_SWITCH, offsetof(settings, json), 0, 0, NULL, NULL, 0, "print one JSON object instead of text"}
+    { \
+        "json", 0, NULL, CLI_SWITCH, offsetof(settings, json), 0, 0, NULL, NULL, 0, \
+            "print one JSON object instead of text" \
+    }
 #define CLI_OPTION_QUIET(settings) \
-    {"quiet", 'q', NULL, CLI_SWITCH, offsetof(settings, quiet), 0, 0, NULL, NULL, 0, \
-     "print errors only: no progress, no summary, no warnings"}
+    { \
+        "quiet", 'q', NULL, CLI_SWITCH, offsetof(settings, quiet), 0, 0, NULL, NULL, 0, \
+            "print errors only: no progress, no summary, no warnings" \
+    }
 #define CLI_OPTION_NDF(settings) \
-    {"ndf", 0, "NAME", CLI_CHOICE, offsetof(settings, ndf), 0, 0, cli_ndfs, "beckmann", 0, \
-     "the surface's normal distribution: beckmann"}
+    { \
+        "ndf", 0, "NAME", CLI_CHOICE, offsetof(settings, ndf), 0, 0, cli_ndfs, "beckmann", 0, \
+            "the surface's normal distribution: beckmann" \
+    }
 #define CLI_OPTION_ALPHA(settings) \
-    {"alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, "0.1", 0, \
-     "width of the normal distribution; two numbers: along and across the brush direction"}
+    { \
+        "alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, "0.1", 0, \
+            "width of the normal distribution; two numbers: along and across the brush direction" \
+    }
 #define CLI_OPTION_DIRECTION(settings) \
-    {"direction", 0, "X,Y,Z", CLI_VECTOR, offsetof(settings, direction), 0, 0, NULL, "0,1,0", 0, \
-     "the brush direction, which a width of two numbers refers to"}
+    { \
+        "direction", 0, "X,Y,Z", CLI_VECTOR, offsetof(settings, direction), 0, 0, NULL, "0,1,0", 0, \
+            "the brush direction, which a width of two numbers refers to" \
+    }
 
 extern const cli_choice cli_ndfs[];
 

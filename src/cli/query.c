@@ -7,7 +7,7 @@
 
 enum { FIELDS = 6 };
 
-static const char *const field_names[FIELDS] = {"nx", "ny", "nz", "ox", "oy", "oz"};
+static const char *const field_names[FIELDS] = { "nx", "ny", "nz", "ox", "oy", "oz" };
 
 static int is_blank(char c)
 {

@@ -29,8 +29,8 @@ typedef struct ring {
     pthread_mutex_t lock;
     pthread_cond_t freed, filled, done; /* for the reader, the workers, the writer */
     size_t submitted, taken, written, count;
-    int finished; /* nothing more will be submitted */
-    int stopped;  /* drop everything */
+    int finished;     /* nothing more will be submitted */
+    int stopped;      /* drop everything */
     int stop_pipe[2]; /* readable once stopped: wakes a reader that waits for input */
     block *blocks;
 } ring;
