@@ -31,13 +31,21 @@ die()
     exit 1
 }
 
+absolute()
+{
+    case $1 in
+        /*) echo "$1" ;;
+        *) echo "$PWD/$1" ;;
+    esac
+}
+
 source= cache= patches= header= output= share=
 while [ $# -gt 0 ]; do
     case $1 in
-        --source=*) source=${1#*=} ;;
-        --cache=*) cache=${1#*=} ;;
-        --patches=*) patches=$(cd "${1#*=}" && pwd) ;;
-        --header=*) header=${1#*=} ;;
+        --source=*) source=$(absolute "${1#*=}") ;;
+        --cache=*) cache=$(absolute "${1#*=}") ;;
+        --patches=*) patches=$(absolute "${1#*=}") ;;
+        --header=*) header=$(absolute "${1#*=}") ;;
         --output=*) output=${1#*=} ;;
         --share=*) share=${1#*=} ;;
         --*) die "unknown option $1" ;;
@@ -194,7 +202,6 @@ build()
 }
 
 mkdir -p "$cache"
-cache=$(cd "$cache" && pwd)
 exec 9>"$cache/.lock"
 if ! flock -n 9; then
     echo '  POV-Ray: waiting for another build in the same cache' >&2
