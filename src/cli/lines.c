@@ -190,10 +190,10 @@ static int run_crew(crew *us, int workers, reader *in)
         read_all(us->job, us->blocks, in);
     else
         ring_stop(us->blocks);
-    while (workers = started, started > 0)
-        pthread_join(threads[--started], NULL);
+    for (int i = 0; i < started; i++)
+        pthread_join(threads[i], NULL);
     pthread_join(writer, NULL);
-    return workers > 0;
+    return started > 0;
 }
 
 int lines_run(const lines_job *job)
