@@ -6,12 +6,12 @@
 #include "prefenv.h"
 #include "progress.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
 #define HALF_MAX 65504.0f
-#define FREQUENCY_MAX 32
+#define NORMALS_MIN 12    /* 10 f^2 + 2 for f = 1 */
+#define NORMALS_MAX 10242 /* and for f = 32 */
 
 typedef struct bake_settings {
     const char *environment, *output;
@@ -42,8 +42,8 @@ static const cli_option options[] = {
     CLI_OPTION_NDF(bake_settings),
     CLI_OPTION_ALPHA(bake_settings),
     CLI_OPTION_DIRECTION(bake_settings),
-    { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), 0, 0, NULL, "42", 0,
-      "representative normals: 12, 42, 92, 162, ... 10f^2+2, f up to 32" },
+    { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), NORMALS_MIN, NORMALS_MAX, NULL, "42", 0,
+      "representative normals: 12, 42, 92, 162, ... 10f^2+2" },
     { "size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
       "width and height of each map" },
     { "exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
@@ -63,20 +63,17 @@ static int count_of(int frequency)
     return 10 * frequency * frequency + 2;
 }
 
-/* CLI_FAILURE, with its error printed, unless `normals` is 10 f^2 + 2. */
+/* CLI_FAILURE, with its error printed, unless `normals`, which is in range, is 10 f^2 + 2. */
 static int check_normals(int normals)
 {
-    int f = normals > 2 ? (int)sqrt((normals - 2) / 10.0) : 0; /* the greatest with count_of(f) <= normals */
+    int f = 1;
 
-    if (f >= 1 && f <= FREQUENCY_MAX && count_of(f) == normals)
+    while (count_of(f + 1) <= normals)
+        f++;
+    if (count_of(f) == normals)
         return CLI_SUCCESS;
-    if (f < 1)
-        cli_error("bake", "--normals %d: the least count is %d", normals, count_of(1));
-    else if (f >= FREQUENCY_MAX)
-        cli_error("bake", "--normals %d: the greatest count is %d", normals, count_of(FREQUENCY_MAX));
-    else
-        cli_error("bake", "--normals %d is not 10f^2+2; the nearest counts are %d and %d", normals, count_of(f),
-                  count_of(f + 1));
+    cli_error("bake", "--normals %d is not 10f^2+2; the nearest counts are %d and %d", normals, count_of(f),
+              count_of(f + 1));
     return CLI_FAILURE;
 }
 

@@ -132,16 +132,15 @@ static int store_vector(const cli_command *command, const cli_option *option, co
 static int store_size(const cli_command *command, const cli_option *option, const char *text, int target[2])
 {
     long size[2];
+    const char *c = text;
     char *end;
 
     errno = 0;
-    size[0] = strtol(text, &end, 10);
-    if (end == text || *end != 'x')
-        return refuse(command, option, text, "width and height are wanted, as in 400x200");
-    text = end + 1;
-    size[1] = strtol(text, &end, 10);
-    if (end == text || *end)
-        return refuse(command, option, text, "width and height are wanted, as in 400x200");
+    for (int i = 0; i < 2; i++, c = end + 1) {
+        size[i] = strtol(c, &end, 10);
+        if (end == c || *end != (i == 0 ? 'x' : '\0'))
+            return refuse(command, option, text, "width and height are wanted, as in 400x200");
+    }
     for (int i = 0; i < 2; i++)
         if (errno || size[i] < (long)option->low || size[i] > (long)option->high)
             return refuse_range(command, option, text);
