@@ -1,8 +1,10 @@
 /* exr.cpp - OpenEXR behind a C interface: the only C++ of ours outside patches/. */
 #include "exr.h"
 
+extern "C" {
 #include "image.h"
 #include "status.h"
+}
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>

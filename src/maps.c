@@ -85,6 +85,7 @@ pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *erro
     if (!maps)
         return pe_fail_memory(error, "maps");
     maps->info = checked;
+    maps->info.format_version = PE_MAPS_FORMAT_VERSION;
     status = allocate(maps, info->source_name, error);
     if (status != PE_OK) {
         pe_maps_free(maps);

@@ -199,7 +199,7 @@ static pe_status get_choice(const header *from, const char *name, const char *co
 
 static pe_status check_version(const header *from)
 {
-    int version;
+    int version = 0;
     pe_status status = get_integer(from, "prefenv:version", &version);
 
     if (status == PE_OK && version != PE_MAPS_FORMAT_VERSION)
@@ -269,7 +269,7 @@ static pe_status check_parts(const header *from, pe_maps_info *info)
 
 static pe_status check_normal(const header *from, const pe_maps *maps, int k)
 {
-    double expected[3], n[3];
+    double expected[3], n[3] = { 0, 0, 0 };
     pe_status status;
 
     if (!maps->geodesic)

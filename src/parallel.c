@@ -1,5 +1,7 @@
 /* parallel.c - a loop over every processor: workers take the next index until none is left. */
+#ifndef _GNU_SOURCE
 #define _GNU_SOURCE
+#endif
 #include "parallel.h"
 
 #include <pthread.h>

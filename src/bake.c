@@ -1,0 +1,259 @@
+/* bake.c - environment + NDF + representative normals to maps. [Motegi 3.1, Eq. 5]
+ *
+ * A texel w of the image that n_k and -n_k share belongs to the side it lies on, n = +-n_k.  The viewer who sees w in a
+ * mirror of normal n is o = reflect(w, n): in the tangent frame of n, with w = (x, y, z), o = (-x, -y, z). */
+#include "cluster.h"
+#include "estimate.h"
+#include "filter.h"
+#include "maps.h"
+#include "parallel.h"
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
+#define AUTO_EXACT_TEXELS_MAX (400 * 200)
+
+/* One side of a pair, ready to be filtered. */
+typedef struct side {
+    pe_frame frame;
+    pe_lights lights;
+} side;
+
+/* What all rows of one image share. */
+typedef struct job {
+    const pe_env *env;
+    const pe_cloud *cloud;
+    double lobe_reach;
+    pe_maps *maps;
+    int image;
+    side sides[2];
+    unsigned char *row_done; /* baseline: memory sufficed for this row */
+} job;
+
+/* ---- points ---- */
+
+/* Texels of one side waiting to be filtered together. */
+typedef struct batch {
+    size_t count;
+    float o[PE_FILTER_POINTS_MAX][3];
+    double world[PE_FILTER_POINTS_MAX][3];
+    float *out[PE_FILTER_POINTS_MAX];
+} batch;
+
+/* The quotient of Eq. 5; where no light has weight the lobe lies between texels and is a mirror. */
+static void store(const pe_env *env, const double sums[4], const double world[3], float *out)
+{
+    double rgb[3];
+
+    if (sums[0] > 0)
+        pe_scale(1 / sums[0], sums + 1, rgb);
+    else
+        pe_env_lookup(env, world, rgb);
+    for (int c = 0; c < 3; c++)
+        out[c] = (float)rgb[c];
+}
+
+static void finish(const job *j, const pe_lights *lights, batch *points)
+{
+    double sums[PE_FILTER_POINTS_MAX][4];
+
+    pe_filter_points(&j->maps->info.ndf, lights, (const float (*)[3])points->o, points->count, sums);
+    for (size_t k = 0; k < points->count; k++)
+        store(j->env, sums[k], points->world[k], points->out[k]);
+    points->count = 0;
+}
+
+static void add_point(const job *j, const side *s, const double world[3], float *out, batch *points)
+{
+    size_t k = points->count++;
+    double w[3];
+
+    pe_frame_coordinates(&s->frame, world, w);
+    points->o[k][0] = (float)-w[0];
+    points->o[k][1] = (float)-w[1];
+    points->o[k][2] = (float)w[2];
+    memcpy(points->world[k], world, sizeof points->world[k]);
+    points->out[k] = out;
+    if (points->count == PE_FILTER_POINTS_MAX)
+        finish(j, &s->lights, points);
+}
+
+/* ---- representative normals ---- */
+
+static float *row_of(const job *j, size_t y)
+{
+    return j->maps->rgb + (size_t)j->image * pe_maps_image_values(j->maps) + 3 * y * (size_t)j->maps->info.width;
+}
+
+static void filter_row(size_t y, void *data)
+{
+    const job *j = data;
+    float *row = row_of(j, y);
+    batch points[2];
+
+    points[0].count = points[1].count = 0;
+    for (int x = 0; x < j->maps->info.width; x++) {
+        double world[3];
+        int which;
+
+        pe_grid_direction(&j->maps->grid, x, (int)y, world);
+        which = !(pe_dot(world, j->sides[0].frame.n) > 0);
+        add_point(j, &j->sides[which], world, row + 3 * x, &points[which]);
+    }
+    for (int which = 0; which < 2; which++)
+        finish(j, &j->sides[which].lights, &points[which]);
+}
+
+static void prepare_side(size_t which, void *data)
+{
+    job *j = data;
+    side *s = &j->sides[which];
+
+    pe_frame_make(pe_geodesic_vertex(j->maps->geodesic, 2 * j->image + (int)which), j->maps->info.direction, &s->frame);
+    pe_lights_fill(j->cloud, &s->frame, j->lobe_reach, &s->lights);
+}
+
+static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *error)
+{
+    pe_status status = pe_lights_allocate(j->cloud->count, &j->sides[0].lights, error);
+
+    if (status == PE_OK)
+        status = pe_lights_allocate(j->cloud->count, &j->sides[1].lights, error);
+    for (j->image = 0; status == PE_OK && j->image < j->maps->info.images; j->image++) {
+        pe_parallel_for(2, threads, prepare_side, j, NULL);
+        status = pe_parallel_for((size_t)j->maps->info.height, threads, filter_row, j, report);
+        report->done += j->maps->info.height;
+    }
+    pe_lights_free(&j->sides[0].lights);
+    pe_lights_free(&j->sides[1].lights);
+    return status;
+}
+
+/* ---- baseline ---- */
+
+/* Each texel w is seen head on: n = o = w, so each has a frame and lights of its own. */
+static void filter_baseline_row(size_t y, void *data)
+{
+    const job *j = data;
+    pe_lights lights;
+
+    if (pe_lights_allocate(j->cloud->count, &lights, NULL) != PE_OK)
+        return;
+    for (int x = 0; x < j->maps->info.width; x++) {
+        const float head_on[1][3] = { { 0, 0, 1 } };
+        double world[3], sums[1][4];
+        pe_frame frame;
+
+        pe_grid_direction(&j->maps->grid, x, (int)y, world);
+        pe_frame_make(world, j->maps->info.direction, &frame);
+        pe_lights_fill(j->cloud, &frame, j->lobe_reach, &lights);
+        pe_filter_points(&j->maps->info.ndf, &lights, head_on, 1, sums);
+        store(j->env, sums[0], world, row_of(j, y) + 3 * x);
+    }
+    pe_lights_free(&lights);
+    j->row_done[y] = 1;
+}
+
+static pe_status bake_baseline(job *j, int threads, pe_report *report, pe_error *error)
+{
+    int rows = j->maps->info.height;
+    pe_status status;
+
+    j->row_done = calloc((size_t)rows, sizeof *j->row_done);
+    if (!j->row_done)
+        return pe_fail_memory(error, "a table of rows");
+    status = pe_parallel_for((size_t)rows, threads, filter_baseline_row, j, report);
+    for (int y = 0; status == PE_OK && y < rows; y++)
+        if (!j->row_done[y])
+            status = pe_fail_memory(error, "a row of lights");
+    free(j->row_done);
+    return status;
+}
+
+/* ---- the whole ---- */
+
+/* Lobes narrower than a cluster would see single lights: the narrower, the more lights, of which each texel then sees
+ * fewer.  At alpha = 0.1 the constant keeps the error below 1 % on photographs with suns (tests/test-fast.c). */
+static size_t cluster_count(const pe_ndf *ndf)
+{
+    double narrowest = fmin(ndf->alpha_x, ndf->alpha_y);
+
+    return (size_t)fmin(65536 * (0.1 / narrowest) * (0.1 / narrowest) + 8192, 1 << 24);
+}
+
+/* Lights weaker than exp(-18) = 1.5e-8 of the mirror's are passed over by the fast mode. */
+#define FAST_LIMIT 18
+
+static pe_status make_cloud(const pe_env *env, const pe_maps_info *info, pe_cloud *cloud, pe_error *error)
+{
+    return info->accuracy == PE_ACCURACY_EXACT ? pe_cloud_from_env(env, cloud, error)
+                                               : pe_cloud_from_clusters(env, cluster_count(&info->ndf), cloud, error);
+}
+
+static pe_status fill_maps(const pe_env *env, pe_maps *maps, const pe_bake_options *options, pe_error *error)
+{
+    const pe_maps_info *info = &maps->info;
+    pe_cloud cloud;
+    job j = { .env = env, .cloud = &cloud, .maps = maps };
+    pe_report report = { options->progress, options->progress_data, 0, (double)info->images * info->height };
+    pe_status status = make_cloud(env, info, &cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    j.lobe_reach = info->accuracy == PE_ACCURACY_EXACT ? M_PI : pe_lobe_reach(&info->ndf, FAST_LIMIT);
+    status = info->method == PE_METHOD_BASELINE ? bake_baseline(&j, options->threads, &report, error)
+                                                : bake_images(&j, options->threads, &report, error);
+    pe_cloud_free(&cloud);
+    if (status == PE_OK && info->accuracy == PE_ACCURACY_FAST)
+        status = pe_estimate_error(env, maps, options->threads, &maps->info.error_estimate, error);
+    if (status == PE_ERROR_CANCELLED)
+        pe_fail(error, status, "cancelled");
+    return status;
+}
+
+static pe_accuracy choose_accuracy(pe_accuracy asked, const pe_env *env)
+{
+    if (asked != PE_ACCURACY_AUTO)
+        return asked;
+    return (size_t)env->width * (size_t)env->height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
+}
+
+static void choose_info(const pe_env *env, const pe_bake_options *options, pe_maps_info *info)
+{
+    static const double plus_y[3] = { 0, 1, 0 };
+    const double *d = options->direction;
+
+    *info = (pe_maps_info){ .method = options->method,
+                            .ndf = options->ndf,
+                            .normals = options->normals ? options->normals : 42,
+                            .width = options->width ? options->width : 400,
+                            .height = options->height ? options->height : 200,
+                            .source_name = env->name,
+                            .source_width = env->width,
+                            .source_height = env->height,
+                            .accuracy = choose_accuracy(options->accuracy, env) };
+    if (info->ndf.alpha_x == 0 && info->ndf.alpha_y == 0)
+        info->ndf.alpha_x = info->ndf.alpha_y = 0.1;
+    memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
+}
+
+pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **out, pe_error *error)
+{
+    pe_maps_info info;
+    pe_maps *maps;
+    pe_status status;
+
+    choose_info(env, options, &info);
+    status = pe_maps_create(&info, &maps, error);
+    if (status != PE_OK)
+        return status;
+    status = fill_maps(env, maps, options, error);
+    if (status == PE_OK)
+        *out = maps;
+    else
+        pe_maps_free(maps);
+    return status;
+}

@@ -1,0 +1,132 @@
+/* estimate.c - how far baked maps are from the exact ones: some texels done again with every light. */
+#include "estimate.h"
+
+#include "filter.h"
+#include "parallel.h"
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+
+#define FRAMES 16            /* normals looked at; of a baseline map, where each texel has its own, texels */
+#define POINTS_PER_FRAME 192 /* texels for each */
+#define COSINE_MIN 0.15
+
+/* One normal, the texels chosen for it, and what came out. */
+typedef struct trial {
+    const pe_cloud *cloud;
+    const pe_maps *maps;
+    int index;
+    double error2, norm2;
+    int failed;
+} trial;
+
+/* Adds the squared difference of one texel, done again as `sums`. */
+static void compare(trial *t, const float *baked, const double sums[4])
+{
+    if (!(sums[0] > 0))
+        return;
+    for (int c = 0; c < 3; c++) {
+        double exact = sums[c + 1] / sums[0], difference = (double)baked[c] - exact;
+
+        t->error2 += difference * difference;
+        t->norm2 += exact * exact;
+    }
+}
+
+/* Point k of a trial: places of the plastic-number lattice (Roberts 2018), evenly spread for any number of points. */
+static void place_texel(const trial *t, int k, int *x, int *y)
+{
+    const double plastic = 1.32471795724474602596;
+    double step = t->index * POINTS_PER_FRAME + k + 0.5, u = step / plastic, v = step / (plastic * plastic);
+
+    *x = (int)((u - floor(u)) * t->maps->info.width);
+    *y = (int)((v - floor(v)) * t->maps->info.height);
+}
+
+static void try_texels(trial *t, int image, const pe_frame *frame, const pe_lights *lights)
+{
+    for (int k = 0; k < POINTS_PER_FRAME; k++) {
+        double world[3], w[3], sums[1][4];
+        float o[1][3];
+        int x, y;
+
+        place_texel(t, k, &x, &y);
+        pe_grid_direction(&t->maps->grid, x, y, world);
+        pe_frame_coordinates(frame, world, w);
+        if (!(w[2] > COSINE_MIN))
+            continue;
+        o[0][0] = (float)-w[0];
+        o[0][1] = (float)-w[1];
+        o[0][2] = (float)w[2];
+        pe_filter_points(&t->maps->info.ndf, lights, (const float (*)[3])o, 1, sums);
+        compare(t, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
+    }
+}
+
+static void try_normal(trial *t, pe_lights *lights)
+{
+    int vertex = (int)((long long)t->index * pe_geodesic_count(t->maps->geodesic) / FRAMES);
+    pe_frame frame;
+
+    pe_frame_make(pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame);
+    pe_lights_fill(t->cloud, &frame, M_PI, lights);
+    try_texels(t, vertex / 2, &frame, lights);
+}
+
+/* Baseline texels are seen head on, so each has its own frame. */
+static void try_baseline(trial *t, pe_lights *lights)
+{
+    for (int k = 0; k < POINTS_PER_FRAME / FRAMES; k++) {
+        const float head_on[1][3] = { { 0, 0, 1 } };
+        double world[3], sums[1][4];
+        pe_frame frame;
+        int x, y;
+
+        place_texel(t, k, &x, &y);
+        pe_grid_direction(&t->maps->grid, x, y, world);
+        pe_frame_make(world, t->maps->info.direction, &frame);
+        pe_lights_fill(t->cloud, &frame, M_PI, lights);
+        pe_filter_points(&t->maps->info.ndf, lights, head_on, 1, sums);
+        compare(t, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
+    }
+}
+
+static void run_trial(size_t index, void *data)
+{
+    trial *t = (trial *)data + index;
+    pe_lights lights;
+
+    t->failed = pe_lights_allocate(t->cloud->count, &lights, NULL) != PE_OK;
+    if (t->failed)
+        return;
+    if (t->maps->geodesic)
+        try_normal(t, &lights);
+    else
+        try_baseline(t, &lights);
+    pe_lights_free(&lights);
+}
+
+pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, int threads, double *estimate, pe_error *error)
+{
+    trial trials[FRAMES];
+    pe_cloud cloud;
+    double error2 = 0, norm2 = 0;
+    pe_status status = pe_cloud_from_env(env, &cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    for (int k = 0; k < FRAMES; k++)
+        trials[k] = (trial){ .cloud = &cloud, .maps = maps, .index = k };
+    pe_parallel_for(FRAMES, threads, run_trial, trials, NULL);
+    for (int k = 0; k < FRAMES; k++) {
+        if (trials[k].failed)
+            status = pe_fail_memory(error, "the estimate of the error");
+        error2 += trials[k].error2;
+        norm2 += trials[k].norm2;
+    }
+    pe_cloud_free(&cloud);
+    if (status == PE_OK)
+        *estimate = norm2 > 0 ? sqrt(error2 / norm2) : 0;
+    return status;
+}
