@@ -64,7 +64,7 @@ fi
 
 if need shellcheck; then
     shellcheck --severity=warning --external-sources --source-path=SCRIPTDIR/.. \
-        --exclude=SC1090,SC1091,SC2034,SC2154 --shell=bash "${scripts[@]}" || complain 'shellcheck has found something'
+        --exclude=SC1007,SC1090,SC1091,SC2034,SC2154 --shell=bash "${scripts[@]}" || complain 'shellcheck has found something'
 fi
 
 # ---- patches: 0001-one-idea.patch, a header that says why, listed in series ----
@@ -79,7 +79,7 @@ if [ -d patches ]; then
         esac
         [ -f "patches/$patch" ] || { complain "patches/series names $patch, which does not exist" && continue; }
         header=$(sed '/^---\( \|$\)/,$d' "patches/$patch")
-        for field in From Subject Signed-off-by Upstream; do
+        for field in Subject Signed-off-by Upstream; do
             grep -q "^$field: " <<<"$header" || complain "patches/$patch: its header has no \`$field:'"
         done
     done < <(sed -e 's/#.*//' -e 's/[[:space:]]*$//' -e '/^$/d' patches/series)
