@@ -1,0 +1,171 @@
+# cli-bake.sh - `prefenv bake`: what it makes, every kind of bad input, outputs that cannot be written, interruption, and
+# the progress bar.
+
+. "$srcdir/tests/tap.sh"
+
+work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
+trap 'rm -rf "$work"' EXIT
+
+quick="--size 16x8 --normals 12"
+
+# flat_hdr WIDTH HEIGHT: a Radiance picture without run lengths, all of one colour.
+flat_hdr()
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n' "$2" "$1"
+    printf '\200\100\040\201%.0s' $(seq $(($1 * $2)))
+}
+
+flat_hdr 16 8 >env.hdr
+oiiotool env.hdr -o env.exr || bail_out "oiiotool does not work"
+oiiotool env.hdr --clamp:max=1 -d uint8 -o env.png || bail_out "oiiotool does not work"
+
+# ---- what it makes ----
+
+for kind in hdr exr png; do
+    # shellcheck disable=SC2086 # words
+    said=$("$PREFENV" bake env.$kind -o $kind.pe.exr $quick 2>&1)
+    is "$?" 0 "bakes from $kind"
+    like "$said" "^$kind.pe.exr: 6 maps of 16x8, [0-9.]+ MB, in [0-9.]+ s, exact$" "and sums up in a line"
+done
+# shellcheck disable=SC2086
+is "$("$PREFENV" bake env.hdr -o q.exr --quiet $quick 2>&1)" "" "--quiet is quiet"
+# shellcheck disable=SC2086
+is "$("$PREFENV" bake env.hdr -o j.exr --json --alpha 0.2,0.1 $quick | jq -c '[.file, .images, .alpha, .accuracy]')" \
+    '["j.exr",6,[0.2,0.1],"exact"]' "--json says what was made"
+# shellcheck disable=SC2086
+"$PREFENV" bake env.hdr -o f.exr --quiet --fast $quick
+is "$("$PREFENV" info --json f.exr | jq -r .accuracy)" fast "--fast is fast, and recorded"
+"$PREFENV" bake env.hdr -o b.exr --quiet --method baseline --size 16x8
+is "$("$PREFENV" info --json b.exr | jq -c '[.method, .images, .normals]')" '["baseline",1,0]' "--method baseline"
+
+for threads in 1 2 3; do
+    # shellcheck disable=SC2086
+    "$PREFENV" bake env.hdr -o t$threads.exr --quiet --threads $threads $quick
+done
+ok "the same bytes for 1 and 2 threads" cmp t1.exr t2.exr
+ok "the same bytes for 1 and 3 threads" cmp t1.exr t3.exr
+
+echo old >old.exr
+# shellcheck disable=SC2086
+"$PREFENV" bake env.hdr -o old.exr --quiet $quick
+ok "a file that exists is replaced" cmp old.exr t1.exr
+
+# ---- repairs and brightness ----
+
+oiiotool env.exr --fill:color=-1,0,0 2x1+0+0 -o negative.exr
+# shellcheck disable=SC2086
+is "$("$PREFENV" bake negative.exr -o n.exr $quick 2>&1 | grep -c 'warning: negative.exr: 2 .* texels were repaired')" 1 \
+    "repaired texels are counted in one warning"
+# shellcheck disable=SC2086
+is "$("$PREFENV" bake negative.exr -o n.exr -q $quick 2>&1)" "" "which --quiet leaves out"
+
+oiiotool env.exr --mulc 1e6 -d float -o sun.exr
+# shellcheck disable=SC2086
+said=$("$PREFENV" bake sun.exr -o s.exr $quick 2>&1)
+like "$said" "warning: brighter than half floats can hold .*--float" "a map too bright for half floats is written as floats"
+like "$(oiiotool --info -v s.exr)" "float" "and has float channels"
+# shellcheck disable=SC2086
+is "$("$PREFENV" bake sun.exr -o s2.exr --float $quick 2>&1 | grep -c warning)" 0 "with --float there is no warning"
+
+# ---- bad input ----
+
+mkdir folder
+: >empty.exr
+echo "once upon a time" >text.exr
+for kind in exr hdr png; do
+    head -c $(($(stat -c %s env.$kind) * 2 / 3)) env.$kind >truncated.$kind
+    head -c 12 env.$kind >head.$kind
+done
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n' >huge.hdr
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y -4 +X 4\n' >negative.hdr
+printf '#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 4 +X 4\n' >xyze.hdr
+# The width and height of a PNG stand in bytes 16 to 23, and their check sum in 29 to 32.
+{ head -c 16 env.png; printf '\177\377\377\377\177\377\377\377'; tail -c +25 env.png; } >huge.png
+# The dataWindow of an OpenEXR file: four 32-bit integers behind name, type and size.
+cp env.exr huge.exr
+offset=$(grep -abo dataWindow huge.exr | head -n 1 | cut -d: -f1)
+printf '\0\0\0\0\0\0\0\0\377\377\377\177\377\377\377\177' |
+    dd of=huge.exr bs=1 seek=$((offset + 11 + 6 + 4)) conv=notrunc status=none
+
+ls >before
+for input in missing.exr folder empty.exr text.exr truncated.exr truncated.hdr truncated.png head.exr head.hdr head.png \
+    huge.hdr huge.png huge.exr negative.hdr xyze.hdr; do
+    # shellcheck disable=SC2086
+    said=$("$PREFENV" bake $input -o out.exr $quick 2>&1)
+    is "$? $(wc -l <<<"$said")" "2 1" "$input: exit code 2, one line"
+    like "$said" "^prefenv: bake: $input: ." "$input: the line names it"
+done
+is "$(ls | grep -v '^before$')" "$(grep -v '^before$' before)" "bad input leaves nothing behind"
+
+# ---- outputs that cannot be written ----
+
+refused() # NAME PATTERN OUTPUT
+{
+    local said
+
+    # shellcheck disable=SC2086
+    said=$("$PREFENV" bake env.hdr -o "$3" $quick 2>&1)
+    is "$? $(wc -l <<<"$said")" "2 1" "$1: exit code 2, one line"
+    like "$said" "$2" "$1: says so"
+}
+
+cp env.hdr keep.hdr
+refused "the input itself" "env.hdr: is the input env.hdr itself" env.hdr
+ln -s env.hdr link.hdr
+refused "the input by another name" "link.hdr: is the input env.hdr itself" link.hdr
+ok "the input is untouched" cmp env.hdr keep.hdr
+refused "a folder" "folder: is a folder" folder
+refused "a folder that is missing" "nowhere/x.exr: cannot write into nowhere: No such file" nowhere/x.exr
+refused "a file as a folder" "env.hdr/x.exr: env.hdr is not a folder" env.hdr/x.exr
+refused "no name" "the output's name is empty" ""
+refused "a full device" "/dev/full: cannot write: No space left on device" /dev/full
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir closed && chmod a-w closed
+    refused "a folder closed to us" "closed/x.exr: cannot write into its folder" closed/x.exr
+else
+    skip "root may write everywhere" 2
+fi
+if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=8k tmpfs small 2>/dev/null; then
+    trap 'umount "$work/small"; rm -rf "$work"' EXIT
+    said=$("$PREFENV" bake env.hdr -o small/x.exr --normals 42 --size 64x32 2>&1)
+    is "$? $(wc -l <<<"$said")" "2 1" "a full disk: exit code 2, one line"
+    is "$(ls small)" "" "a full disk: nothing is left on it"
+else
+    skip "only root can make a small disk" 2
+fi
+
+# ---- interruption ----
+
+# Minutes on any machine, if nobody stopped it.
+slow="--exact --normals 2562 --size 200x100 --threads 1"
+flat_hdr 200 100 >large.hdr
+ls >before
+for signal in INT TERM HUP; do
+    # shellcheck disable=SC2086
+    timeout --preserve-status -s $signal 1 "$PREFENV" bake large.hdr -o stopped.exr $slow >said 2>&1
+    status=$?
+    rm -f said
+    is "$status" "$((128 + $(kill -l $signal)))" "SIG$signal ends the bake by its convention"
+    is "$(ls | grep -v '^before$')" "$(grep -v '^before$' before)" "and leaves nothing behind"
+done
+# shellcheck disable=SC2086
+timeout 2 sh -c 'trap "" HUP; "$0" "$@" & child=$!; sleep 0.5; kill -HUP $child; sleep 0.5; kill -0 $child; s=$?
+                 kill -TERM $child; exit $s' "$PREFENV" bake large.hdr -o stopped.exr $slow 2>/dev/null
+is $? 0 "a signal that the caller ignores, as nohup does, stays ignored"
+
+# ---- progress ----
+
+# shellcheck disable=SC2086
+timeout -s TERM 1 "$PREFENV" bake large.hdr -o stopped.exr $slow 2>said
+is "$(cat said)" "" "no bar if standard error is a file"
+if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
+    bake="timeout -s TERM 2 '$PREFENV' bake large.hdr -o stopped.exr $slow"
+    like "$(TERM=xterm script -qec "$bake" /dev/null </dev/null | tr '\r' '\n')" "^ +[0-9]+ % \[#* *\] [0-9]+ (s|min [0-9]+ s) left" \
+        "a bar with the time left on a terminal"
+    is "$(TERM=xterm script -qec "$bake --quiet" /dev/null </dev/null)" "" "none with --quiet"
+    is "$(TERM=dumb script -qec "$bake" /dev/null </dev/null)" "" "none on a dumb terminal"
+else
+    skip "script(1) cannot make a terminal here" 3
+fi
+
+done_testing

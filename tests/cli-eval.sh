@@ -1,0 +1,173 @@
+# cli-eval.sh - `prefenv eval` and `prefenv exact`: lines in, lines out, in order, the same for any number of threads;
+# what they say to bad lines; that they answer as lines arrive.
+
+. "$srcdir/tests/tap.sh"
+
+work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
+trap 'rm -rf "$work"' EXIT
+
+# An environment whose radiance is (1, 1/2, 1/4) everywhere but for one lit texel, and one of nothing but that.
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 32\n'
+    printf '\200\100\040\201%.0s' $(seq 512)
+} >flat.hdr
+oiiotool flat.hdr --fill:color=90,20,5 1x1+9+5 -o spot.exr || bail_out "oiiotool does not work"
+for env in flat.hdr spot.exr; do
+    "$PREFENV" bake $env -o "${env%.*}.pe.exr" --alpha 0.3 --size 64x32 --float --quiet || bail_out "bake does not work"
+done
+
+eval_of() # LINES [OPTION...]; what is printed to both streams, and the exit code
+{
+    local lines=$1
+
+    shift
+    printf '%b' "$lines" | "$PREFENV" eval flat.pe.exr "$@" 2>&1
+    echo "exit $?"
+}
+
+# ---- answers ----
+
+is "$(eval_of '0 0 1 0 1 1\n')" "1 0.5 0.25
+exit 0" "a constant environment reflects itself"
+is "$(eval_of '0 0 1 0 1 1')" "1 0.5 0.25
+exit 0" "the last line needs no line feed"
+is "$(eval_of '')" "exit 0" "no lines, no answers"
+is "$(eval_of ' 0\t0  1\t0 1 1 \r\n\n  \n# a remark\n  # another\n0 1e0 0 0 +.1E+1 0.\n')" "1 0.5 0.25
+1 0.5 0.25
+exit 0" "blanks, tabs, carriage returns, remarks and all ways to write a number"
+is "$(eval_of '0 0 1e-200 0 1e300 1e300\n')" "1 0.5 0.25
+exit 0" "vectors of any length"
+
+# ---- bad lines ----
+
+bad() # NAME LINE PATTERN; the line comes third, after a good one and a remark
+{
+    local said
+
+    said=$(eval_of "0 0 1 0 1 1\\n# remark\\n$2\\n0 0 1 0 1 1\\n")
+    is "$(head -n 1 <<<"$said") $(wc -l <<<"$said") $(tail -n 1 <<<"$said")" "1 0.5 0.25 3 exit 2" \
+        "$1: the answer before it, one line of error, exit code 2"
+    like "$said" "^prefenv: eval: line 3: $3" "$1: named"
+}
+
+bad "too few" "1 2 3" "3 values; six are wanted: nx ny nz ox oy oz"
+bad "too many" "1 2 3 4 5 6 7" "7 values; six are wanted"
+bad "a word" "0 0 north 0 1 1" 'nz is "north", which is not a number'
+bad "a number with a tail" "0 0 1 0.5x 1 1" 'ox is "0.5x", which is not a number'
+bad "commas" "0,0,1 0 1 1" 'nx is "0,0,1", which is not a number'
+bad "NaN" "0 0 1 0 nan 1" 'oy is "nan", which is not finite'
+bad "infinity" "0 0 1 0 1 -inf" 'oz is "-inf", which is not finite'
+bad "too large" "1e999 0 1 0 1 1" 'nx is "1e999", which is not finite'
+bad "no normal" "0 0 0 0 1 1" "the normal 0 0 0 has no direction"
+bad "no viewer" "0 0 1 0 -0 0" "the direction to the viewer 0 0 0 has no direction"
+bad "a long line" "0 0 1 0 1 $(printf '1%.0s' $(seq 2000))" "longer than 1024 bytes"
+bad "a null byte" '0 0 1 0 1 1\\0001' 'oz is "1", which is not a number'
+is "$(head -c 5000000 /dev/zero | "$PREFENV" eval flat.pe.exr 2>&1)" "prefenv: eval: line 1: longer than 1024 bytes" \
+    "a file of no lines is refused soon"
+
+for command in "eval flat.pe.exr" "exact flat.hdr"; do
+    # shellcheck disable=SC2086 # words
+    like "$("$PREFENV" $command <. 2>&1; echo "exit $?")" "cannot read standard input: Is a directory" \
+        "$command: a folder as input"
+    # shellcheck disable=SC2086
+    like "$("$PREFENV" $command <&- 2>&1; echo "exit $?")" "^exit 2$" "$command: no input at all"
+    # shellcheck disable=SC2086
+    is "$(echo 0 0 1 0 1 1 | "$PREFENV" $command 2>&1 >/dev/full; echo "exit $?")" \
+        "prefenv: ${command%% *}: cannot write to standard output: No space left on device
+exit 2" "$command: a full disk is noticed"
+    # shellcheck disable=SC2086
+    like "$(echo 0 0 1 0 1 1 | "$PREFENV" $command 2>&1 >&-; echo "exit $?")" "^exit 2$" "$command: no output at all"
+done
+like "$("$PREFENV" eval flat.hdr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "an image is no maps file"
+like "$("$PREFENV" exact missing.hdr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "a missing environment"
+
+# ---- order, threads, digits ----
+
+# Normals and viewers spread by multiples of irrational numbers; awk prints 6 digits, enough to tell lines apart.
+lines() # COUNT
+{
+    awk -v count="$1" 'BEGIN {
+        for (i = 1; i <= count; i++)
+            print sin(i * 1.7), cos(i * 2.3), sin(i * 3.1), cos(i * 0.7), sin(i * 1.9 + 1), cos(i * 4.3)
+    }'
+}
+
+lines 20000 >lines
+for interpolation in nearest weighted linear; do
+    for threads in 1 2 3; do
+        "$PREFENV" eval spot.pe.exr --interpolation $interpolation --threads $threads <lines >$interpolation.$threads
+    done
+    is "$(wc -l <$interpolation.1)" 20000 "$interpolation: an answer a line"
+    ok "$interpolation: the same for 1 and 2 threads" cmp $interpolation.1 $interpolation.2
+    ok "$interpolation: the same for 1 and 3 threads" cmp $interpolation.1 $interpolation.3
+done
+fails "nearest and linear differ" cmp -s nearest.1 linear.1
+fails "weighted and linear differ" cmp -s weighted.1 linear.1
+ok "linear is the default" sh -c '"$PREFENV" eval spot.pe.exr <lines | cmp - linear.1'
+ok "the weights' default power is 50 for 42 normals" \
+    sh -c '"$PREFENV" eval spot.pe.exr --interpolation weighted --exponent 50 <lines | cmp - weighted.1'
+fails "another power gives another answer" \
+    sh -c '"$PREFENV" eval spot.pe.exr --interpolation weighted --exponent 10 <lines | cmp -s - weighted.1'
+
+# Each of some lines asked alone has the answer it had among the others: nothing is mixed up.
+mixed=0
+for line in 1 2 777 10240 19999 20000; do
+    [ "$(sed -n ${line}p lines | "$PREFENV" eval spot.pe.exr)" = "$(sed -n ${line}p linear.1)" ] || mixed=$((mixed + 1))
+done
+is $mixed 0 "a line alone has the same answer as among others"
+is "$(grep -Evc '^(-?[0-9]+(\.[0-9]+)?(e[-+][0-9]+)? ?){3}$' linear.1)" 0 "answers are three numbers"
+ok "through a pipe of small pieces the same" \
+    sh -c 'dd if=lines bs=7 status=none | "$PREFENV" eval spot.pe.exr | cmp - linear.1'
+is "$(awk '{ for (i = 1; i <= 3; i++) if (sprintf("%.9g", $i) != $i) n++ } END { print n + 0 }' linear.1)" 0 \
+    "digits are those of %.9g"
+
+# ---- exact ----
+
+is "$(printf '0 0 1 0 1 1\n0 1 0 0 1 0\n' | "$PREFENV" exact flat.hdr --alpha 0.3)" "1 0.5 0.25
+1 0.5 0.25" "exact: a constant environment reflects itself"
+head -n 300 lines >few
+for threads in 1 2 3; do
+    "$PREFENV" exact spot.exr --alpha 0.3 --threads $threads <few >exact.$threads
+done
+ok "exact: the same for 1 and 2 threads" cmp exact.1 exact.2
+ok "exact: the same for 1 and 3 threads" cmp exact.1 exact.3
+fails "exact: the width matters" sh -c '"$PREFENV" exact spot.exr --alpha 0.2 <few | cmp -s - exact.1'
+fails "exact: the brush direction matters" sh -c '"$PREFENV" exact spot.exr --alpha 0.3,0.1 <few >a
+    "$PREFENV" exact spot.exr --alpha 0.3,0.1 --direction 1,0,0 <few | cmp -s - a'
+
+# ---- answers arrive while the input is open ----
+
+mkfifo questions
+"$PREFENV" eval flat.pe.exr <questions >answers &
+exec 3>questions
+echo 0 0 1 0 1 1 >&3
+for _ in $(seq 100); do
+    [ -s answers ] && break
+    sleep 0.1
+done
+is "$(cat answers)" "1 0.5 0.25" "an answer comes before the next question"
+exec 3>&-
+wait
+
+mkfifo more
+"$PREFENV" eval flat.pe.exr <more >/dev/null 2>said &
+child=$!
+exec 3>more
+echo 0 0 nowhere 0 1 1 >&3
+for _ in $(seq 100); do
+    kill -0 $child 2>/dev/null || break
+    sleep 0.1
+done
+is "$(kill -0 $child 2>/dev/null && echo waits || cat said)" \
+    'prefenv: eval: line 1: nz is "nowhere", which is not a number' "a bad line ends it though the input is open"
+exec 3>&-
+wait
+
+# ---- speed, for the log ----
+
+for _ in $(seq 25); do cat lines; done >half
+start=$(date +%s%N)
+"$PREFENV" eval spot.pe.exr <half >/dev/null
+note "500,000 lines in $((($(date +%s%N) - start) / 1000000)) ms"
+
+done_testing

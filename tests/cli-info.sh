@@ -1,0 +1,48 @@
+# cli-info.sh - `prefenv info`, and what other programs say of a maps file.
+
+. "$srcdir/tests/tap.sh"
+
+work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
+trap 'rm -rf "$work"' EXIT
+
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+    printf '\200\100\040\201%.0s' $(seq 32)
+} >'a "city".hdr'
+"$PREFENV" bake 'a "city".hdr' -o maps.exr --alpha 0.2,0.05 --direction 1,0,0 --normals 42 --size 16x8 --quiet ||
+    bail_out "bake does not work"
+
+json=$("$PREFENV" info --json maps.exr)
+is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 1, method: "representative", ndf: "beckmann",
+    alpha: [0.2, 0.05], direction: [1, 0, 0], normals: 42, frequency: 2, images: 21, width: 16, height: 8,
+    source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0}')" \
+    "--json says all, and is JSON"
+
+text=$("$PREFENV" info maps.exr)
+like "$text" '^file       maps.exr$' "the text names the file"
+like "$text" '^normals    42 \(frequency 2\)' "the normals"
+like "$text" '^images     21 of 16x8$' "the images"
+like "$text" '^alpha      0.2 along, 0.05 across the brush$' "the widths"
+like "$text" '^source     a "city".hdr, 8x4$' "the source"
+like "$text" '^accuracy   exact$' "the accuracy"
+
+header=$(exrheader maps.exr) || bail_out "exrheader does not read a maps file"
+like "$header" 'part 20' "exrheader sees 21 parts"
+like "$header" 'dataWindow .*\(0 0\) - \(15 7\)' "of the right size"
+like "$header" '(B|G|R), 16-bit floating-point' "of half floats"
+like "$header" 'beckmann|Beckmann' "and the normal distribution"
+like "$header" 'a "city".hdr' "and the source"
+like "$(oiiotool --info -v maps.exr)" '21 subimages' "oiiotool sees the images"
+like "$(oiiotool --info -v maps.exr)" 'prefenv' "and Prefenv's attributes"
+
+# A file that is no maps file, each way one can be.
+oiiotool maps.exr --subimage 0 --eraseattrib '.*' -o plain.exr
+head -c 1500 maps.exr >truncated.exr
+: >empty.exr
+for input in missing.exr . 'a "city".hdr' plain.exr truncated.exr empty.exr; do
+    said=$("$PREFENV" info "$input" 2>&1)
+    is "$? $(wc -l <<<"$said")" "2 1" "$input: exit code 2, one line"
+    like "$said" "^prefenv: info: $input: ." "$input: the line names it"
+done
+
+done_testing

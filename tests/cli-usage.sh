@@ -1,0 +1,126 @@
+# cli-usage.sh - the command's help, its version, and what it says to wrong usage: one sentence, exit code 2.
+
+. "$srcdir/tests/tap.sh"
+
+work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
+trap 'rm -rf "$work"' EXIT
+
+commands="bake info eval exact diff"
+
+# What the command prints to one stream while the other is thrown away, and its exit code after it.
+out()
+{
+    "$PREFENV" "$@" 2>/dev/null
+    echo "exit $?"
+}
+
+err()
+{
+    "$PREFENV" "$@" 2>&1 >/dev/null </dev/null
+    echo "exit $?"
+}
+
+# refused NAME PATTERN ARGUMENT...: exit code 2, and one line on standard error that the pattern matches.
+refused()
+{
+    local name=$1 pattern=$2 said
+
+    shift 2
+    said=$(err "$@")
+    is "$(wc -l <<<"$said") $(tail -n 1 <<<"$said")" "2 exit 2" "$name: one line and exit code 2"
+    like "$said" "$pattern" "$name: says so"
+}
+
+# ---- help and version ----
+
+version=$(sed -n 's/^#define PE_VERSION "\(.*\)"$/\1/p' "$srcdir/src/prefenv.h")
+is "$(out --version)" "prefenv $version
+exit 0" "--version is the header's"
+
+for command in $commands; do
+    like "$(out --help)" "^  $command " "--help lists $command"
+    is "$(out help "$command")" "$(out "$command" --help)" "help $command is $command --help"
+    like "$(out "$command" --help)" "^exit 0$" "$command --help exits with 0"
+    is "$("$PREFENV" "$command" --help | awk 'length > 79')" "" "$command --help fits 80 columns"
+done
+is "$(out help)" "$(out --help)" "help is --help"
+is "$("$PREFENV" --help | awk 'length > 79')" "" "--help fits 80 columns"
+
+# options_of COMMAND: the long options its help names, a line each.
+options_of()
+{
+    "$PREFENV" "$1" --help | sed -n 's/^  \(-., \|    \)--\([a-z-]*\).*/\2/p' | sort | tr '\n' ' '
+}
+
+is "$(options_of bake)" \
+    "alpha direction exact fast float help json method ndf normals output quiet size threads " "the options of bake"
+is "$(options_of info)" "help json " "the options of info"
+is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
+is "$(options_of exact)" "alpha direction help ndf quiet threads " "the options of exact"
+is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
+
+for command in $commands; do
+    page=$srcdir/man/prefenv-$command.1.scd
+    for option in $(options_of "$command"); do
+        like "$(cat "$page")" "\\*--$option\\*" "the man page of $command has --$option"
+    done
+done
+
+# ---- wrong usage ----
+
+refused "no command" "no command given"
+refused "unknown command" "unknown command 'bakke'; did you mean 'bake'" bakke
+refused "a command like no other" "unknown command 'sing'; see 'prefenv --help'" sing
+refused "unknown option before the command" "unknown option '--versoin'; did you mean '--version'" --versoin
+refused "help of an unknown command" "unknown command 'evil'; did you mean 'eval'" help evil
+refused "unknown option" "bake: unknown option --nromals; did you mean --normals" bake x.hdr -o y.exr --nromals 42
+refused "unknown option like no other" "bake: unknown option --frobnicate; see 'prefenv bake --help'" bake --frobnicate
+refused "unknown letter" "bake: unknown option -x; see" bake --quiet -x
+refused "option cut too short" "diff: --fail could be --fail-above or --fail-above-relative" diff --fail 1
+refused "option without its value" "bake: --alpha needs a value: --alpha A" bake --alpha
+refused "value for a switch" "info: --json takes no value" info --json=yes
+refused "missing operand" "bake: ENV is missing" bake -o y.exr
+refused "missing output" "bake: -o MAPS is missing" bake x.hdr
+refused "operand too many" "info: 'b' is one argument too many" info a b
+
+while IFS='|' read -r arguments pattern; do
+    # shellcheck disable=SC2086 # words
+    refused "$arguments" "$pattern" bake x.hdr -o y.exr $arguments
+done <<'TABLE'
+--alpha 0|--alpha 0: out of range: 0.001 to 2
+--alpha 2.5|out of range: 0.001 to 2
+--alpha 0.1,7|--alpha 0.1,7: out of range
+--alpha thick|one number is wanted, or two
+--alpha nan|one number is wanted, or two
+--alpha 0.1,0.2,0.3|one number is wanted, or two
+--direction 1,2|three numbers are wanted
+--direction 0,0,0|the zero vector has no direction
+--direction 1,inf,0|three numbers are wanted
+--normals 43|--normals 43 is not 10f.2.2; the nearest counts are 42 and 92
+--normals 11|out of range: 12 to 10242
+--normals 10243|out of range: 12 to 10242
+--normals 99999999999999999999|out of range: 12 to 10242
+--normals many|a whole number is wanted
+--normals 42.5|a whole number is wanted
+--size 400|width and height are wanted
+--size 400x|width and height are wanted
+--size 1x200|--size 1x200: out of range: 2 to 8192
+--size 400x8193|out of range: 2 to 8192
+--ndf ggx|--ndf ggx: not known; what there is: beckmann
+--method best|not known; what there is: representative, baseline
+--threads 0|out of range: 1 to 256
+--exact --fast|--exact and --fast exclude each other
+TABLE
+is "$(ls)" "" "nothing was written"
+
+refused "exponent without weighted" "--exponent is for --interpolation weighted" eval x.exr --exponent 50
+refused "unknown interpolation" "what there is: nearest, weighted, linear" eval x.exr --interpolation cubic
+
+# ---- output that cannot be written ----
+
+is "$("$PREFENV" --help 2>&1 >/dev/full; echo "exit $?")" \
+    "prefenv: cannot write to standard output: No space left on device
+exit 2" "a full disk is noticed"
+like "$("$PREFENV" bake --help 2>&1 >&-; echo "exit $?")" "^exit 2$" "a closed standard output is noticed"
+
+done_testing
