@@ -6,13 +6,10 @@
 work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
 trap 'rm -rf "$work"' EXIT
 
-# An environment whose radiance is (1, 1/2, 1/4) everywhere but for one lit texel, and one of nothing but that.
-{
-    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 32\n'
-    printf '\200\100\040\201%.0s' $(seq 512)
-} >flat.hdr
-oiiotool flat.hdr --fill:color=90,20,5 1x1+9+5 -o spot.exr || bail_out "oiiotool does not work"
-for env in flat.hdr spot.exr; do
+# An environment whose radiance is (1, 1/2, 1/4) everywhere, and one where a single texel is lit above that.
+oiiotool --pattern constant:color=1,0.5,0.25 32x16 3 -o flat.exr --fill:color=90,20,5 1x1+9+5 -o spot.exr ||
+    bail_out "oiiotool does not work"
+for env in flat.exr spot.exr; do
     "$PREFENV" bake $env -o "${env%.*}.pe.exr" --alpha 0.3 --size 64x32 --float --quiet || bail_out "bake does not work"
 done
 
@@ -61,11 +58,11 @@ bad "too large" "1e999 0 1 0 1 1" 'nx is "1e999", which is not finite'
 bad "no normal" "0 0 0 0 1 1" "the normal 0 0 0 has no direction"
 bad "no viewer" "0 0 1 0 -0 0" "the direction to the viewer 0 0 0 has no direction"
 bad "a long line" "0 0 1 0 1 $(printf '1%.0s' $(seq 2000))" "longer than 1024 bytes"
-bad "a null byte" '0 0 1 0 1 1\\0001' 'oz is "1", which is not a number'
+bad "a null byte" '0 0 1 0 1 1\00001' 'oz is "1", which is not a number'
 is "$(head -c 5000000 /dev/zero | "$PREFENV" eval flat.pe.exr 2>&1)" "prefenv: eval: line 1: longer than 1024 bytes" \
     "a file of no lines is refused soon"
 
-for command in "eval flat.pe.exr" "exact flat.hdr"; do
+for command in "eval flat.pe.exr" "exact flat.exr"; do
     # shellcheck disable=SC2086 # words
     like "$("$PREFENV" $command <. 2>&1; echo "exit $?")" "cannot read standard input: Is a directory" \
         "$command: a folder as input"
@@ -78,8 +75,8 @@ exit 2" "$command: a full disk is noticed"
     # shellcheck disable=SC2086
     like "$(echo 0 0 1 0 1 1 | "$PREFENV" $command 2>&1 >&-; echo "exit $?")" "^exit 2$" "$command: no output at all"
 done
-like "$("$PREFENV" eval flat.hdr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "an image is no maps file"
-like "$("$PREFENV" exact missing.hdr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "a missing environment"
+like "$("$PREFENV" eval flat.exr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "an image is no maps file"
+like "$("$PREFENV" exact missing.exr 2>&1 </dev/null; echo "exit $?")" "^exit 2$" "a missing environment"
 
 # ---- order, threads, digits ----
 
@@ -123,7 +120,7 @@ is "$(awk '{ for (i = 1; i <= 3; i++) if (sprintf("%.9g", $i) != $i) n++ } END {
 
 # ---- exact ----
 
-is "$(printf '0 0 1 0 1 1\n0 1 0 0 1 0\n' | "$PREFENV" exact flat.hdr --alpha 0.3)" "1 0.5 0.25
+is "$(printf '0 0 1 0 1 1\n0 1 0 0 1 0\n' | "$PREFENV" exact flat.exr --alpha 0.3)" "1 0.5 0.25
 1 0.5 0.25" "exact: a constant environment reflects itself"
 head -n 300 lines >few
 for threads in 1 2 3; do
