@@ -57,7 +57,7 @@ static int print_overview(void)
     puts("\nCommands:");
     for (int i = 0; i < COMMAND_COUNT; i++)
         printf("  %-8s%s\n", commands[i]->name, commands[i]->summary);
-    puts("\n  prefenv COMMAND --help    the options of a command; also: prefenv help COMMAND\n"
+    puts("\n  prefenv COMMAND --help    a command's options; also: prefenv help COMMAND\n"
          "  prefenv --version         the version\n\n"
          "Exit codes: 0 done, 1 the pictures differ by more than diff's limit,\n"
          "2 wrong usage, bad input or an output that cannot be written.");
