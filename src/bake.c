@@ -175,13 +175,15 @@ static pe_status bake_baseline(job *j, int threads, pe_report *report, pe_error 
 
 /* ---- the whole ---- */
 
-/* Lobes narrower than a cluster would see single lights: the narrower, the more lights, of which each texel then sees
- * fewer.  At alpha = 0.1 the constant keeps the error below 1 % on photographs with suns (tests/test-fast.c). */
+/* Lobes narrower than a cluster would see single lights, so clusters shrink with the lobe's area, of which each texel
+ * then sees the same number.  The constants keep the error below 1 % on photographs with suns: tests/test-fast.c. */
+#define CLUSTERS_PER_LOBE_AREA 164.0
+#define CLUSTERS_MIN 4096
+#define CLUSTERS_MAX 131072
+
 static size_t cluster_count(const pe_ndf *ndf)
 {
-    double narrowest = fmin(ndf->alpha_x, ndf->alpha_y);
-
-    return (size_t)fmin(65536 * (0.1 / narrowest) * (0.1 / narrowest) + 8192, 1 << 24);
+    return (size_t)fmin(CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (ndf->alpha_x * ndf->alpha_y), CLUSTERS_MAX);
 }
 
 /* Lights weaker than exp(-18) = 1.5e-8 of the mirror's are passed over by the fast mode. */
