@@ -123,7 +123,8 @@ is "$("$PREFENV" diff --json all-nan.exr a.exr 2>/dev/null | jq -c '[.pixels, .n
 
 "$PREFENV" diff -q a.exr b.exr -o d.png --amplify 2
 # |a - b| is 1/4 in red at four pixels, 1/2 after amplification: 188 of 255 in sRGB.
-lit=$(oiiotool --dumpdata d.png | sed -n 's/.*Pixel (\(.*\)): \([0-9]* [0-9]* [0-9]*\) (.*/\1: \2/p' | grep -v ': 0 0 0')
+lit=$(oiiotool --dumpdata d.png | sed -n 's/.*Pixel (\(.*\)): \([0-9]* [0-9]* [0-9]*\) (.*/\1: \2/p' |
+    grep -v ': 0 0 0')
 is "$(tr '\n' '|' <<<"$lit")" "1, 2: 188 0 0|2, 2: 188 0 0|1, 3: 188 0 0|2, 3: 188 0 0|" "amplified, in sRGB"
 "$PREFENV" diff -q nan.exr a.exr -o n.png 2>/dev/null
 like "$(oiiotool --dumpdata n.png)" 'Pixel \(0, 0\): 255 0 255' "what is not finite is magenta"

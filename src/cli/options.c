@@ -20,13 +20,12 @@ typedef struct getopt_tables {
     size_t count;
 } getopt_tables;
 
-/* "-h" stays free for a later option; --help is understood everywhere. */
+/* Fills tables of zeros.  "-h" stays free for a later option; --help is understood everywhere. */
 static void fill_tables(const cli_command *command, getopt_tables *tables)
 {
     char *letter = tables->letters;
     size_t i = 0;
 
-    memset(tables, 0, sizeof *tables);
     *letter++ = ':'; /* tells a missing value from an unknown option */
     for (const cli_option *option = command->options; option->name && i < OPTIONS_MAX; option++, i++) {
         tables->longs[i].name = option->name;
@@ -148,7 +147,7 @@ static int check_required(const cli_command *command, const void *settings)
 
 int cli_parse(const cli_command *command, int argc, char **argv, void *settings)
 {
-    getopt_tables tables;
+    getopt_tables tables = { 0 };
     int found;
 
     fill_tables(command, &tables);
