@@ -5,7 +5,7 @@
 #                   [--patches=DIR --header=FILE LIBRARY...]
 #
 # The slow part, everything but the final link, is kept in the cache under a key: a hash of all that decides what comes
-# out (source, patches, the header they include, compiler, flags, this script).  A change in libprefenv alone only links
+# out (source, patches, the header they include, compiler, flags, how it is built here).  A change in libprefenv alone only links
 # again; a change in a comment of the header does not even count.  A build is made in a temporary folder and renamed
 # when it is whole, under a lock, so that an interrupted one is never taken for good.
 #
@@ -65,34 +65,10 @@ compiler=$($CXX --version | head -n 1) || die "$CXX does not run"
 # Not needed to build or to test; `libraries` holds old copies of libraries that the system has.
 excluded=(--exclude=libraries --exclude=windows --exclude='.git*')
 
-# ---- the key ----
-
 series()
 {
     sed -e 's/#.*//' -e 's/[[:space:]]*$//' -e '/^$/d' "$patches/series"
 }
-
-if [ -d "$source" ]; then
-    source_hash=$(cd "$source" && find . -type f ! -name '*.[oa]' ! -path './.git/*' ! -path './libraries*' -print0 |
-        sort -z | xargs -0 sha256sum | sha256sum)
-else
-    source_hash=$(sha256sum <"$source")
-fi
-
-key=$({
-    echo "$source_hash"
-    sha256sum <"$0"
-    echo "$compiler $optimisation $(uname -m)"
-    pkg-config --modversion OpenEXR libpng libtiff-4 2>&1 || true
-    if [ -n "$patches" ]; then
-        echo patched
-        for patch in $(series); do
-            [ -f "$patches/$patch" ] || die "patches/series names $patch, which does not exist"
-            cat "$patches/$patch"
-        done
-        $CXX -fpreprocessed -dD -E -P -x c "$header" 2>/dev/null # the header without its comments
-    fi
-} | sha256sum | cut -c 1-20)
 
 # ---- the build ----
 
@@ -149,6 +125,32 @@ END
     rm -rf "$tree"
 }
 
+# ---- the key ----
+
+if [ -d "$source" ]; then
+    source_hash=$(cd "$source" && find . -type f ! -name '*.[oa]' ! -path './.git/*' ! -path './libraries*' -print0 |
+        sort -z | xargs -0 sha256sum | sha256sum)
+else
+    source_hash=$(sha256sum <"$source")
+fi
+
+key=$({
+    echo "$source_hash"
+    declare -f build_objects series
+    echo "$compiler $optimisation $(uname -m)"
+    pkg-config --modversion OpenEXR libpng libtiff-4 2>&1 || true
+    if [ -n "$patches" ]; then
+        echo patched
+        for patch in $(series); do
+            [ -f "$patches/$patch" ] || die "patches/series names $patch, which does not exist"
+            cat "$patches/$patch"
+        done
+        $CXX -fpreprocessed -dD -E -P -x c "$header" 2>/dev/null # the header without its comments
+    fi
+} | sha256sum | cut -c 1-20)
+
+# ---- the cache ----
+
 # How far the build is, on a terminal: POV-Ray has about 150 files to compile.
 show_progress()
 {
@@ -164,7 +166,7 @@ build()
 {
     local work=$cache/.tmp.$key log=$cache/$key.log what status=0 builder= watcher=
 
-    rm -rf "$cache"/.tmp.* # left by a build that was killed: we hold the lock
+    rm -rf "$cache"/.tmp.* "$cache"/*.log # left by builds that failed or were killed: we hold the lock
     mkdir "$work"
     trap '[ -z "$watcher" ] || kill "$watcher" || true
         [ -z "$builder" ] || { kill -- -"$builder" && wait "$builder" || true; }
@@ -172,7 +174,7 @@ build()
     trap 'exit 130' INT TERM HUP
 
     what='unpatched, for the tests'
-    [ -z "$patches" ] || what="with $(series | wc -l) patches"
+    [ -z "$patches" ] || what="with Prefenv's $(series | wc -l) patches"
     printf '  POV-Ray 3.7.0.10, %s: building, once; about 5 minutes on two cores\n  log: %s\n' "$what" "$log" >&2
     : >"$log"
     if [ -t 2 ]; then
