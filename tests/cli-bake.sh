@@ -88,9 +88,10 @@ offset=$(grep -abo dataWindow huge.exr | head -n 1 | cut -d: -f1)
 printf '\0\0\0\0\0\0\0\0\377\377\377\177\377\377\377\177' |
     dd of=huge.exr bs=1 seek=$((offset + 11 + 6 + 4)) conv=notrunc status=none
 
+cp t1.exr maps.exr
 ls >before
 for input in missing.exr folder empty.exr text.exr truncated.exr truncated.hdr truncated.png \
-    head.exr head.hdr head.png huge.hdr huge.png huge.exr negative.hdr xyze.hdr; do
+    head.exr head.hdr head.png huge.hdr huge.png huge.exr negative.hdr xyze.hdr maps.exr; do
     # shellcheck disable=SC2086
     said=$("$PREFENV" bake $input -o out.exr $quick 2>&1)
     is "$? $(wc -l <<<"$said")" "2 1" "$input: exit code 2, one line"

@@ -184,7 +184,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
 static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_error *error)
 {
     pe_env *env;
-    pe_status status = pe_env_read(settings->environment, &env, error);
+    pe_status status = cli_read_environment(settings->environment, &env, error);
 
     if (status != PE_OK)
         return status;

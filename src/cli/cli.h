@@ -17,6 +17,9 @@ enum {
 __attribute__((format(printf, 2, 3))) void cli_error(const char *command, const char *format, ...);
 __attribute__((format(printf, 2, 3))) void cli_warning(const char *command, const char *format, ...);
 
+/* Reads an environment image as pe_env_read does, but not a maps file. */
+pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error);
+
 /* One warning if texels of the environment read from `path` were repaired. */
 void cli_warn_of_repairs(const char *command, const char *path, const pe_env *env);
 

@@ -57,7 +57,7 @@ static int exact_run(int argc, char **argv)
 
     if (result != CLI_PROCEED)
         return result;
-    if (pe_env_read(settings.environment, &env, &error) != PE_OK) {
+    if (cli_read_environment(settings.environment, &env, &error) != PE_OK) {
         cli_error("exact", "%s", error.message);
         return CLI_FAILURE;
     }

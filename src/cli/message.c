@@ -43,15 +43,6 @@ void cli_warning(const char *command, const char *format, ...)
     va_end(arguments);
 }
 
-void cli_warn_of_repairs(const char *command, const char *path, const pe_env *env)
-{
-    size_t count = pe_env_repairs(env);
-
-    if (count)
-        cli_warning(command, "%s: %zu NaN, infinite or negative %s repaired", path, count,
-                    count == 1 ? "texel was" : "texels were");
-}
-
 int cli_flush(const char *command)
 {
     if (fflush(stdout) == 0 && !ferror(stdout))

@@ -1,0 +1,31 @@
+/* environment.c - the environment image that bake and exact start from. */
+#include "cli.h"
+#include "prefenv.h"
+#include "status.h"
+
+#include <stdlib.h>
+
+pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error)
+{
+    unsigned char *bytes;
+    size_t size;
+    pe_status status = pe_file_read(path, &bytes, &size, error);
+
+    if (status != PE_OK)
+        return status;
+    if (pe_maps_detect(bytes, size)) /* its first map would pass for an environment */
+        status = pe_fail(error, PE_ERROR_FORMAT, "%s: is a maps file; give the image that it was baked from", path);
+    else
+        status = pe_env_read_memory(bytes, size, path, env, error);
+    free(bytes);
+    return status;
+}
+
+void cli_warn_of_repairs(const char *command, const char *path, const pe_env *env)
+{
+    size_t count = pe_env_repairs(env);
+
+    if (count)
+        cli_warning(command, "%s: %zu NaN, infinite or negative %s repaired", path, count,
+                    count == 1 ? "texel was" : "texels were");
+}
