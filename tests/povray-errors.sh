@@ -1,0 +1,111 @@
+#!/bin/bash
+# What can be wrong in a prefiltered_environment block: each is one error of POV-Ray's own with file and line, says the
+# way out, and leaves no picture.  Files are looked for and opened as POV-Ray's others.
+
+. "$srcdir/tests/tap.sh"
+. "$srcdir/tests/povray/render.sh"
+
+chart chart.hdr 16 8
+bake chart.hdr -o maps.exr --alpha 0.3 --normals 12 --size 16x8
+echo 'not a picture' >text.exr
+head -c 2000 maps.exr >cut.exr
+: >empty.hdr
+cp maps.exr wrong.png
+
+# The block stands in line 5: three lines of the scene's head, then the sphere.
+reflection() # WORDS
+{
+    printf 'sphere { 0, 1 pigment { rgb 1 } finish { reflection { 1\nprefiltered_environment { %s } } } }\n' "$1" |
+        scene error.pov
+}
+
+wrong() # TEXT WORDS PATTERN
+{
+    reflection "$2"
+    rejected "$1" "File 'error.pov' line 5: Parse Error: $3" error.pov
+}
+
+wrong 'no file at all' '' 'Expected .*exr, hdr or png'
+wrong 'a file without its kind' '"maps.exr"' 'Expected .*exr, hdr or png'
+wrong 'a missing file' 'exr "missing.exr"' "Cannot find 'missing.exr': check the name or add its folder to Library_Path"
+wrong 'not an EXR' 'exr "text.exr"' "'text.exr' is not an OpenEXR file"
+wrong 'an EXR called a PNG' 'png "wrong.png"' "'wrong.png' is not a PNG file: write exr, hdr or png as its contents are"
+wrong 'an empty file' 'hdr "empty.hdr"' "'empty.hdr' is not a Radiance HDR file"
+wrong 'a file that was cut short' 'exr "cut.exr"' "cut.exr"
+wrong 'method 0' 'exr "maps.exr" method 0' \
+    'method must be 1 \(nearest\), 2 \(weighted\) or 3 \(linear\), but 0 was given'
+wrong 'method 2.5' 'exr "maps.exr" method 2.5' 'method must be 1 .*but 2.5 was given'
+wrong 'exponent 0' 'exr "maps.exr" exponent 0' 'exponent must be above 0'
+wrong 'a negative exponent' 'exr "maps.exr" method 2 exponent -3' 'exponent must be above 0 .*-3 was given'
+wrong 'roughness 0' 'hdr "chart.hdr" roughness 0 samples 4' 'roughness: .*'
+wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 samples 4' 'roughness: .*7'
+wrong 'samples 0' 'hdr "chart.hdr" roughness 0.1 samples 0' 'samples must be a whole number from 1'
+wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be a whole number .*1.5 was given'
+wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
+wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
+wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'
+wrong 'maps with a direction' 'exr "maps.exr" direction x' 'This file holds maps'
+wrong 'a plain environment alone' 'hdr "chart.hdr"' \
+    'This file is a plain environment: bake it first \(prefenv bake\), or give both'
+wrong 'a plain environment without samples' 'hdr "chart.hdr" roughness 0.1' \
+    'This file is a plain environment: .*samples'
+wrong 'a plain environment without roughness' 'hdr "chart.hdr" samples 4' \
+    'This file is a plain environment: .*roughness'
+wrong 'a plain environment with a method' 'hdr "chart.hdr" roughness 0.1 samples 4 method 2' \
+    'method and exponent say how prefiltered maps are looked up'
+wrong 'a stretched environment' 'exr "maps.exr" scale <1, 2, 1>' \
+    'An environment can be rotated, mirrored and scaled evenly'
+wrong 'an unknown word' 'exr "maps.exr" gloss 3' ''
+
+scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { exr "maps.exr" } } }'
+rejected 'maps as a pigment' \
+    "File 'error.pov' line 4: Parse Error: This file holds prefiltered maps, .*baked from" error.pov
+scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" method 3 } } }'
+rejected 'a method in a pigment' "File 'error.pov' line 4: Parse Error: In a pigment, .*move method" error.pov
+scene error.pov <<<'plane { y, 0 normal { prefiltered_environment { hdr "chart.hdr" } } }'
+rejected 'as a normal' "line 4: Parse Error: .*prefiltered_environment.* can only be used in a pigment" error.pov
+scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" } color_map { [0 rgb 1] } } }'
+rejected 'a pigment with a color_map' "line 4: Parse Error: Cannot use color_map" error.pov
+
+# ---- where files are found ----
+
+mkdir -p library/deeper
+cp maps.exr library/deeper/elsewhere.exr
+reflection 'exr "elsewhere.exr"'
+rejected 'a file in a folder that is not on the path' "Cannot find 'elsewhere.exr'" error.pov
+ok 'a file on Library_Path' render error.pov +Llibrary/deeper +W8 +H8 -F
+reflection 'exr "elsewhere"'
+ok 'the extension may be left out' render error.pov +Llibrary/deeper +W8 +H8 -F
+
+reflection 'exr "maps.exr" translate 3*x'
+ok 'a translation changes nothing' render error.pov +W8 +H8 -F
+render error.pov +W8 +H8 -F
+like "$said" 'Parse Warning: .*infinitely far away' '... and is warned of'
+
+# POV-Ray 3.7.0.10's restrictions let everything through on Unix (patches/README.md), so all that can be held is that
+# they treat an environment as they treat a picture.
+mkdir -p .povray/3.7 forbidden
+cp chart.hdr forbidden/
+printf '[File I/O Security]\nrestricted\n[Permitted Paths]\nread+write* = %s/library\n' "$work" >.povray/3.7/povray.conf
+scene picture.pov <<<'sky_sphere { pigment { image_map { hdr "forbidden/chart.hdr" map_type 1 } } }'
+scene environment.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "forbidden/chart.hdr" } } }'
+render picture.pov +W8 +H8 -F
+picture_status=$render_status
+render environment.pov +W8 +H8 -F
+is "$render_status" "$picture_status" "the I/O restrictions treat an environment as they treat an image_map"
+rm -r .povray
+
+if [ "$(id -u)" -eq 0 ]; then
+    skip 'root may read every file'
+else
+    cp maps.exr closed.exr && chmod 0 closed.exr
+    wrong 'a file that may not be read' 'exr "closed.exr"' "Cannot (find|open) 'closed.exr'"
+fi
+
+# ---- no noise ----
+
+reflection 'exr "maps.exr"'
+said=$("$POVRAY_PREFENV" +Ierror.pov -D +W8 +H8 -F -V 2>&1)
+is "$(grep -Ei 'cannot|warning:|error:|restrictions are' <<<"$said")" '' 'nothing is complained of where all is well'
+
+done_testing
