@@ -98,9 +98,9 @@ static void print_text(const measures *m)
         printf("not finite     %zu, left out\n", m->not_finite);
     printf("MSE            %.6g\n", m->mse);
     printf("RMSE           %.6g\n", m->rmse);
-    printf("relative RMSE  %.4g %%\n", 100 * m->relative_rmse);
-    printf("relative L2    %.4g %%\n", 100 * m->relative_l2);
-    printf("PSNR           %.4g dB\n", m->psnr);
+    printf("relative RMSE  %.6g %%\n", 100 * m->relative_rmse);
+    printf("relative L2    %.6g %%\n", 100 * m->relative_l2);
+    printf("PSNR           %.6g dB\n", m->psnr);
     printf("worst pixel    (%d, %d) differs by %.6g: %.6g %.6g %.6g, reference %.6g %.6g %.6g\n", m->worst_x,
            m->worst_y, m->worst_difference, m->worst[0], m->worst[1], m->worst[2], m->worst_reference[0],
            m->worst_reference[1], m->worst_reference[2]);
