@@ -5,9 +5,9 @@
 #                   [--patches=DIR --header=FILE LIBRARY...]
 #
 # The slow part, everything but the final link, is kept in the cache under a key: a hash of all that decides what comes
-# out (source, patches, the header they include, compiler, flags, how it is built here).  A change in libprefenv alone only links
-# again; a change in a comment of the header does not even count.  A build is made in a temporary folder and renamed
-# when it is whole, under a lock, so that an interrupted one is never taken for good.
+# out (source, patches, the header they include, compiler, flags, how it is built here).  A change in libprefenv alone
+# only links again; a change in a comment of the header does not even count.  A build is made in a temporary folder and
+# renamed when it is whole, under a lock, so that an interrupted one is never taken for good.
 #
 # In a key's folder: objects/, link (the flags of the link), include/, scenes/, ini/, doc/, build.log.
 #
