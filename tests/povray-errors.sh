@@ -30,6 +30,9 @@ wrong 'a file without its kind' '"maps.exr"' 'Expected .*exr, hdr or png'
 wrong 'a missing file' 'exr "missing.exr"' "Cannot find 'missing.exr': check the name or add its folder to Library_Path"
 wrong 'not an EXR' 'exr "text.exr"' "'text.exr' is not an OpenEXR file"
 wrong 'an EXR called a PNG' 'png "wrong.png"' "'wrong.png' is not a PNG file: write exr, hdr or png as its contents are"
+wrong 'an EXR called a PNG, the second time it is named' \
+    'exr "maps.exr" } } } } sphere { 0, 1 finish { reflection { 1 prefiltered_environment { png "maps.exr"' \
+    "'maps.exr' is not a PNG file"
 wrong 'an empty file' 'hdr "empty.hdr"' "'empty.hdr' is not a Radiance HDR file"
 wrong 'a file that was cut short' 'exr "cut.exr"' "cut.exr"
 wrong 'method 0' 'exr "maps.exr" method 0' \
@@ -37,8 +40,8 @@ wrong 'method 0' 'exr "maps.exr" method 0' \
 wrong 'method 2.5' 'exr "maps.exr" method 2.5' 'method must be 1 .*but 2.5 was given'
 wrong 'exponent 0' 'exr "maps.exr" exponent 0' 'exponent must be above 0'
 wrong 'a negative exponent' 'exr "maps.exr" method 2 exponent -3' 'exponent must be above 0 .*-3 was given'
-wrong 'roughness 0' 'hdr "chart.hdr" roughness 0 samples 4' 'roughness: .*'
-wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 samples 4' 'roughness: .*7'
+wrong 'roughness 0' 'hdr "chart.hdr" roughness 0 samples 4' 'roughness must lie between 0.001 and 2, but 0, 0 was given'
+wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 samples 4' 'roughness must lie .* but 0.1, 7 was'
 wrong 'samples 0' 'hdr "chart.hdr" roughness 0.1 samples 0' 'samples must be a whole number from 1'
 wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be a whole number .*1.5 was given'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
@@ -81,6 +84,12 @@ reflection 'exr "maps.exr" translate 3*x'
 ok 'a translation changes nothing' render error.pov +W8 +H8 -F
 render error.pov +W8 +H8 -F
 like "$said" 'Parse Warning: .*infinitely far away' '... and is warned of'
+
+printf '#version unofficial 3.7;\nglobal_settings { assumed_gamma 2.2 }\nsky_sphere { %s }' \
+    'pigment { prefiltered_environment { hdr "chart.hdr" } }' >gamma.pov
+render gamma.pov +W8 +H8 -F
+like "$said" "File 'gamma.pov' line 3: Parse Warning: The radiance of an environment is linear: use assumed_gamma 1.0" \
+    'another assumed_gamma than 1 is warned of'
 
 # POV-Ray 3.7.0.10's restrictions let everything through on Unix (patches/README.md), so all that can be held is that
 # they treat an environment as they treat a picture.

@@ -39,6 +39,7 @@ cases=(
     'object and texture transformed'
     'union of declared finishes'
     'iridescence'
+    'glass, from the inside'
     'plain, once more'
 )
 
@@ -52,9 +53,9 @@ frames() # NAME MODE SKY [OPTION...]
 }
 
 frames mirror0 0 0
-like "$said" 'Reflected Rays: *[1-9]' 'a mirror traces rays'
+is "$(grep -o 'Reflected Rays: *[1-9]' <<<"$said" | wc -l)" "$count" 'a mirror traces rays, in every frame'
 frames block0 1 0
-is "$(grep -o 'Reflected Rays: *[1-9]' <<<"$said")" '' 'the block traces none'
+is "$(grep -o 'Reflected Rays: *[1-9]' <<<"$said" | wc -l)" 1 'the block traces none, but inside the glass'
 frames mirror1 0 1
 frames block1 1 1
 

@@ -117,5 +117,13 @@ light_source { <5, 8, -6>, 0.4 }
   }
 #break
 #case (21) sphere { 0, 1 pigment { rgb 1 } finish { Dull irid { 0.3 thickness 0.4 } reflection { 0.8 Env() } } } #break
-#case (22) sphere { 0, 1 pigment { rgb 0.5 } finish { Dull reflection { 1 Env() } } } #break
+#case (22)
+  // What the glass reflects on its inner side is traced in either mode, so that it is coloured by the glass.
+  sphere { 0, 1
+    pigment { rgbf <0.9, 0.6, 0.4, 0.9> }
+    finish { Dull reflection { 0.3 Env() } }
+    interior { ior 1.5 fade_distance 0.5 fade_power 1001 fade_color rgb <0.2, 0.5, 0.9> }
+  }
+#break
+#case (23) sphere { 0, 1 pigment { rgb 0.5 } finish { Dull reflection { 1 Env() } } } #break
 #end
