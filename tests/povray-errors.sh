@@ -41,7 +41,8 @@ wrong 'method 2.5' 'exr "maps.exr" method 2.5' 'method must be 1 .*but 2.5 was g
 wrong 'exponent 0' 'exr "maps.exr" exponent 0' 'exponent must be above 0'
 wrong 'a negative exponent' 'exr "maps.exr" method 2 exponent -3' 'exponent must be above 0 .*-3 was given'
 wrong 'roughness 0' 'hdr "chart.hdr" roughness 0 samples 4' 'roughness must lie between 0.001 and 2, but 0, 0 was given'
-wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 samples 4' 'roughness must lie .* but 0.1, 7 was'
+wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 samples 4' \
+    'roughness must lie .* but 0.1, 7 was'
 wrong 'samples 0' 'hdr "chart.hdr" roughness 0.1 samples 0' 'samples must be a whole number from 1'
 wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be a whole number .*1.5 was given'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
