@@ -41,8 +41,8 @@ typedef struct pe_tap {
     double share;
 } pe_tap;
 
-/* The four texels around (u, v).  Beyond a pole lies the same row, half a turn on; an odd width splits no texel there:
- * both neighbours are weighed at their own places. */
+/* The four texels around (u, v).  Beyond a pole lies the same row, half a turn on, which for an
+ * odd width is between two texels. */
 void pe_latlong_taps(int width, int height, double u, double v, pe_tap taps[4]);
 
 #endif

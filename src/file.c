@@ -133,22 +133,36 @@ static pe_status write_and_rename(const char *path, char *temporary, size_t room
     return PE_OK;
 }
 
-pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_error *error)
+static pe_status write_file(const char *path, const void *bytes, size_t size, pe_error *error)
 {
-    struct stat about;
     size_t room = strlen(path) + 64;
+    char *temporary = malloc(room);
     pe_status status;
-    char *temporary;
 
-    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) {
-        if (S_ISDIR(about.st_mode))
-            return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
-        return write_device(path, bytes, size, error);
-    }
-    temporary = malloc(room);
     if (!temporary)
         return pe_fail_memory(error, "a file name");
     status = write_and_rename(path, temporary, room, bytes, size, error);
     free(temporary);
+    return status;
+}
+
+pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_error *error)
+{
+    struct stat about;
+    pe_status status;
+    char *target;
+
+    if (stat(path, &about) != 0)
+        return write_file(path, bytes, size, error);
+    if (S_ISDIR(about.st_mode))
+        return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
+    if (!S_ISREG(about.st_mode))
+        return write_device(path, bytes, size, error);
+    /* A link stays a link: what it points to is replaced. */
+    target = realpath(path, NULL);
+    if (!target)
+        return file_error(error, path, "follow");
+    status = write_file(target, bytes, size, error);
+    free(target);
     return status;
 }

@@ -1,0 +1,136 @@
+/* reference.c - the naive truth, see reference.h. */
+#include "reference.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void unit(double a[3])
+{
+    double length = sqrt(dot(a, a));
+
+    for (int c = 0; c < 3; c++)
+        a[c] /= length;
+}
+
+void reference_direction(int width, int height, int x, int y, double direction[3], double *theta)
+{
+    double phi = 2 * M_PI * (x + 0.5) / width;
+
+    *theta = M_PI * (y + 0.5) / height;
+    direction[0] = sin(*theta) * cos(phi);
+    direction[1] = cos(*theta);
+    direction[2] = sin(*theta) * sin(phi);
+}
+
+double reference_beckmann(double alpha_x, double alpha_y, const double h[3], const double t[3], const double b[3],
+                          const double n[3])
+{
+    double cos_theta = dot(h, n), theta, phi;
+
+    if (cos_theta <= 0)
+        return 0;
+    theta = acos(cos_theta < 1 ? cos_theta : 1);
+    phi = atan2(dot(h, b), dot(h, t));
+    return exp(-pow(tan(theta), 2) * (pow(cos(phi) / alpha_x, 2) + pow(sin(phi) / alpha_y, 2))) /
+           (M_PI * alpha_x * alpha_y * pow(cos_theta, 4));
+}
+
+void reference_reflection(const float *rgb, int width, int height, double alpha_x, double alpha_y, const double d[3],
+                          const double n[3], const double o[3], double out[3])
+{
+    double along = dot(d, n), sum = 0, t[3], b[3];
+
+    for (int c = 0; c < 3; c++) {
+        t[c] = d[c] - along * n[c];
+        out[c] = 0;
+    }
+    unit(t);
+    b[0] = n[1] * t[2] - n[2] * t[1];
+    b[1] = n[2] * t[0] - n[0] * t[2];
+    b[2] = n[0] * t[1] - n[1] * t[0];
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double w[3], h[3], theta, weight;
+
+            reference_direction(width, height, x, y, w, &theta);
+            if (dot(w, n) <= 0)
+                continue;
+            for (int c = 0; c < 3; c++)
+                h[c] = o[c] + w[c];
+            unit(h);
+            weight = reference_beckmann(alpha_x, alpha_y, h, t, b, n) * sin(theta);
+            sum += weight;
+            for (int c = 0; c < 3; c++)
+                out[c] += weight * (double)rgb[3 * (y * width + x) + c];
+        }
+    for (int c = 0; c < 3; c++)
+        out[c] /= sum;
+}
+
+/* ---- environments ---- */
+
+float *reference_constant(int width, int height, float value)
+{
+    float *rgb = malloc(3 * sizeof *rgb * (size_t)width * (size_t)height);
+
+    for (int k = 0; k < 3 * width * height; k++)
+        rgb[k] = value;
+    return rgb;
+}
+
+float *reference_noise(int width, int height, unsigned seed)
+{
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int k = 0; k < 3 * width * height; k++)
+        rgb[k] = (float)reference_random(&seed);
+    return rgb;
+}
+
+float *reference_lit_texel(int width, int height, int x, int y, float value)
+{
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int c = 0; c < 3; c++)
+        rgb[3 * (y * width + x) + c] = value;
+    return rgb;
+}
+
+float *reference_half_white(int width, int height, const double n[3])
+{
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double w[3], theta;
+
+            reference_direction(width, height, x, y, w, &theta);
+            for (int c = 0; c < 3; c++)
+                rgb[3 * (y * width + x) + c] = dot(w, n) > 0;
+        }
+    return rgb;
+}
+
+/* PCG-XSH-RR's smaller sibling (O'Neill 2014): 32 bits of state are plenty for a test. */
+double reference_random(unsigned *state)
+{
+    unsigned word;
+
+    *state = *state * 747796405u + 2891336453u;
+    word = ((*state >> ((*state >> 28) + 4)) ^ *state) * 277803737u;
+    return ((word >> 22) ^ word) / 4294967296.0;
+}
+
+void reference_random_direction(unsigned *state, double direction[3])
+{
+    double y = 2 * reference_random(state) - 1, phi = 2 * M_PI * reference_random(state), r = sqrt(1 - y * y);
+
+    direction[0] = r * cos(phi);
+    direction[1] = y;
+    direction[2] = r * sin(phi);
+}

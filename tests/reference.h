@@ -1,0 +1,30 @@
+/* reference.h - the naive truth: [Motegi Eq. 4-6] in double precision, written from the formulas alone.
+ *
+ * Nothing here calls the library, so that an error there is not repeated here.  Frame and units as in prefenv.h. */
+#ifndef REFERENCE_H
+#define REFERENCE_H
+
+/* Centre of texel (x, y) of a width x height lat-long image; its polar angle is *theta. */
+void reference_direction(int width, int height, int x, int y, double direction[3], double *theta);
+
+/* D(h) of unit vectors: h, normal n, tangents t and b. [Motegi Eq. 6] */
+double reference_beckmann(double alpha_x, double alpha_y, const double h[3], const double t[3], const double b[3],
+                          const double n[3]);
+
+/* The reflection at a surface of unit normal n and brush direction d towards the unit vector o: [Motegi Eq. 5] over the
+ * texels in the hemisphere of n. */
+void reference_reflection(const float *rgb, int width, int height, double alpha_x, double alpha_y, const double d[3],
+                          const double n[3], const double o[3], double out[3]);
+
+/* ---- environments that hurt, and the means to make more; release with free() ---- */
+
+float *reference_constant(int width, int height, float value);
+float *reference_noise(int width, int height, unsigned seed);            /* each channel uniform in [0, 1) */
+float *reference_lit_texel(int width, int height, int x, int y, float value); /* black but for one texel */
+float *reference_half_white(int width, int height, const double n[3]);   /* 1 where direction.n > 0, else 0 */
+
+/* A fixed sequence in [0, 1), and unit vectors spread evenly over the sphere by it. */
+double reference_random(unsigned *state);
+void reference_random_direction(unsigned *state, double direction[3]);
+
+#endif

@@ -1,0 +1,185 @@
+/* test-filter.c - claim: production filter and exact twin agree with the naive reference, environments that hurt included.
+ *
+ * Production is single precision, so its bound is relative: 1e-5 of a texel's value, where a sun many lobes away is all
+ * there is to see; the root mean square over a map is held to 3e-6. */
+#include "prefenv.h"
+#include "reference.h"
+#include "tap.h"
+#include "vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define WORST_MAX 1e-5
+#define RMS_MAX 3e-6
+
+typedef struct environment {
+    const char *name;
+    int width, height;
+    float *rgb;
+} environment;
+
+static const double plus_y[3] = { 0, 1, 0 }, aslant[3] = { 1, 0.2, -0.3 };
+
+static pe_env *make(const environment *e)
+{
+    pe_env *env;
+    pe_error error;
+
+    need(pe_env_create(e->width, e->height, e->rgb, &env, &error) == PE_OK, "%s", error.message);
+    return env;
+}
+
+/* What the reference says of the texel in direction w of the image that +-n share. */
+static void reference_texel(const environment *e, const pe_maps_info *info, const double n_k[3], const double w[3],
+                            double out[3])
+{
+    double n[3], o[3], d[3];
+
+    pe_scale(pe_dot(w, n_k) > 0 ? 1 : -1, n_k, n);
+    pe_reflect(w, n, o);
+    pe_normalize(info->direction, d);
+    reference_reflection(e->rgb, e->width, e->height, info->ndf.alpha_x, info->ndf.alpha_y, d, n, o, out);
+}
+
+/* Differences over every `stride`-th texel of every image. */
+static void compare(const environment *e, const pe_maps *maps, int stride, double *worst, double *rms)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    double error2 = 0, norm2 = 0;
+
+    *worst = 0;
+    for (int k = 0; k < info->images * info->width * info->height; k += stride) {
+        int image = k / (info->width * info->height), texel = k % (info->width * info->height);
+        const float *got = pe_maps_image(maps, image) + 3 * texel;
+        double w[3], theta, n[3], expected[3];
+
+        reference_direction(info->width, info->height, texel % info->width, texel / info->width, w, &theta);
+        if (info->method == PE_METHOD_BASELINE)
+            memcpy(n, w, sizeof n);
+        else
+            pe_maps_normal(maps, image, n);
+        if (fabs(pe_dot(w, n)) < 1e-9)
+            continue; /* on the equator either side may have it */
+        reference_texel(e, info, n, w, expected);
+        for (int c = 0; c < 3; c++) {
+            double difference = fabs((double)got[c] - expected[c]);
+
+            *worst = fmax(*worst, difference / (expected[c] + 1e-30));
+            error2 += difference * difference;
+            norm2 += expected[c] * expected[c];
+        }
+    }
+    *rms = sqrt(error2 / norm2);
+}
+
+static void test_bake(const environment *e, pe_method method, double alpha_x, double alpha_y, const double direction[3])
+{
+    pe_bake_options options = { .method = method,
+                                .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y },
+                                .direction = { direction[0], direction[1], direction[2] },
+                                .normals = 12,
+                                .width = 37,
+                                .height = 18,
+                                .accuracy = PE_ACCURACY_EXACT };
+    pe_env *env = make(e);
+    pe_maps *maps;
+    pe_error error;
+    double worst, rms;
+
+    need(pe_bake(env, &options, &maps, &error) == PE_OK, "%s", error.message);
+    compare(e, maps, 7, &worst, &rms);
+    ok(worst < WORST_MAX && rms < RMS_MAX, "%s, %s, alpha %g, %g: worst %.1e, rms %.1e", e->name,
+       method == PE_METHOD_BASELINE ? "baseline" : "representative", alpha_x, alpha_y, worst, rms);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+static void test_exact(const environment *e, double alpha_x, double alpha_y, const double direction[3])
+{
+    pe_env *env = make(e);
+    pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
+    double worst = 0, unit_direction[3];
+    unsigned state = 11;
+
+    pe_normalize(direction, unit_direction);
+    for (int k = 0; k < 200; k++) {
+        double n[3], o[3], long_n[3], long_o[3], got[3], expected[3];
+
+        reference_random_direction(&state, n);
+        reference_random_direction(&state, o);
+        pe_scale(3, n, long_n);
+        pe_scale(0.2, o, long_o);
+        pe_exact(env, &ndf, direction, long_n, long_o, got);
+        if (pe_dot(n, o) < 0)
+            pe_scale(-1, n, n);
+        reference_reflection(e->rgb, e->width, e->height, alpha_x, alpha_y, unit_direction, n, o, expected);
+        for (int c = 0; c < 3; c++)
+            worst = fmax(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-30));
+    }
+    ok(worst < 1e-9, "%s, alpha %g, %g: pe_exact within %.1e", e->name, alpha_x, alpha_y, worst);
+    pe_env_free(env);
+}
+
+/* Monte Carlo's mean is Eq. 4: many views, each answered by many samples, a Z-test on the mean difference of each. */
+static void test_monte_carlo(double alpha_x, double alpha_y)
+{
+    environment e = { "noise", 256, 128, reference_noise(256, 128, 3) };
+    pe_env *env = make(&e);
+    pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
+    double sum = 0, sum2 = 0, count = 0;
+    unsigned state = 5;
+
+    for (int k = 0; k < 300; k++) {
+        double n[3], o[3], got[3], expected[3];
+
+        reference_random_direction(&state, n);
+        reference_random_direction(&state, o);
+        if (fabs(pe_dot(n, o)) < 0.1)
+            continue;
+        pe_monte_carlo(env, &ndf, plus_y, 2048, n, o, got);
+        pe_exact(env, &ndf, plus_y, n, o, expected);
+        for (int c = 0; c < 3; c++) {
+            sum += got[c] - expected[c];
+            sum2 += (got[c] - expected[c]) * (got[c] - expected[c]);
+            count++;
+        }
+    }
+    ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "alpha %g, %g: Monte Carlo's mean, z = %.2f", alpha_x, alpha_y,
+       sum / count / sqrt(sum2 / count / count));
+    ok(sqrt(sum2 / count) < 0.01, "alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", alpha_x, alpha_y,
+       sqrt(sum2 / count));
+    pe_env_free(env);
+    free(e.rgb);
+}
+
+int main(void)
+{
+    environment all[] = {
+        { "noise", 64, 32, reference_noise(64, 32, 1) },
+        { "odd noise", 33, 17, reference_noise(33, 17, 2) },
+        { "a sun of 30,000", 64, 32, reference_noise(64, 32, 4) },
+        { "a lit pole", 64, 32, reference_noise(64, 32, 6) },
+        { "3 x 2", 3, 2, reference_noise(3, 2, 7) },
+    };
+
+    for (int c = 0; c < 3; c++) {
+        all[2].rgb[3 * (9 * 64 + 50) + c] = 30000;
+        all[3].rgb[3 * 17 + c] = 30000;
+    }
+    for (int k = 0; k < (int)(sizeof all / sizeof *all); k++) {
+        int coarse = all[k].width < 10; /* lobes narrower than its texels are a mirror, which the reference has not */
+
+        test_bake(&all[k], PE_METHOD_REPRESENTATIVE, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
+        test_bake(&all[k], PE_METHOD_REPRESENTATIVE, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
+        test_bake(&all[k], PE_METHOD_BASELINE, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
+        test_bake(&all[k], PE_METHOD_BASELINE, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
+        test_exact(&all[k], coarse ? 0.6 : 0.2, coarse ? 0.6 : 0.15, aslant);
+    }
+    test_monte_carlo(0.1, 0.1);
+    test_monte_carlo(0.1, 0.03);
+    test_monte_carlo(0.6, 0.6);
+    for (int k = 0; k < (int)(sizeof all / sizeof *all); k++)
+        free(all[k].rgb);
+    return done_testing();
+}

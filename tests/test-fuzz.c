@@ -1,0 +1,175 @@
+/* test-fuzz.c - claim: no bytes make a loader crash, hang or speak in more than one sentence.
+ *
+ * Small valid files of every kind are damaged in a fixed, random way some thousand times and loaded.  Run under a
+ * sanitizer (`make check-c` in a build configured with --enable-sanitizer=address,undefined) it sees more than crashes. */
+#include "prefenv.h"
+#include "reference.h"
+#include "tap.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define SIZE_MAX_BYTES 65536
+#define ROUNDS 4000
+
+typedef struct seed {
+    const char *name;
+    unsigned char bytes[SIZE_MAX_BYTES];
+    size_t size;
+} seed;
+
+static void load_file(const char *path, seed *s)
+{
+    FILE *file = fopen(path, "rb");
+
+    need(file != NULL, "cannot open %s", path);
+    s->size = fread(s->bytes, 1, sizeof s->bytes, file);
+    fclose(file);
+    unlink(path);
+    need(s->size > 0 && s->size < sizeof s->bytes, "%s has %zu bytes", path, s->size);
+}
+
+static void seed_maps(seed *s, pe_pixel_type type)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(16, 8, 1);
+    pe_bake_options options = { .normals = 12, .width = 8, .height = 4, .ndf = { PE_NDF_BECKMANN, 0.5, 0.5 } };
+    pe_env *env;
+    pe_maps *maps;
+
+    close(mkstemp(path));
+    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
+             pe_maps_write(maps, path, type, NULL) == PE_OK,
+         "cannot make maps");
+    load_file(path, s);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
+static void seed_png(seed *s)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(17, 9, 2);
+    pe_image image = { 17, 9, rgb, NULL };
+
+    close(mkstemp(path));
+    need(pe_image_write_png(path, &image, NULL) == PE_OK, "cannot make a PNG");
+    load_file(path, s);
+    free(rgb);
+}
+
+/* A Radiance picture of 16 x 4: two lines of new run lengths, two flat ones with an old run. */
+static void seed_hdr(seed *s)
+{
+    static const char header[] = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 16\n";
+    static const unsigned char flat[] = { 10, 20, 30, 128, 1, 1, 1, 15 };
+    unsigned char *at = s->bytes;
+
+    memcpy(at, header, sizeof header - 1);
+    at += sizeof header - 1;
+    for (int line = 0; line < 2; line++) {
+        static const unsigned char start[] = { 2, 2, 0, 16 };
+
+        memcpy(at, start, 4);
+        at += 4;
+        for (int component = 0; component < 4; component++) {
+            *at++ = 128 + 12;
+            *at++ = (unsigned char)(100 + component);
+            *at++ = 4;
+            for (int k = 0; k < 4; k++)
+                *at++ = (unsigned char)(120 + k);
+        }
+    }
+    for (int line = 0; line < 2; line++) {
+        memcpy(at, flat, sizeof flat);
+        at += sizeof flat;
+    }
+    s->size = (size_t)(at - s->bytes);
+}
+
+/* One of: a flipped bit, a random byte, a byte of great or small value, a cut, a block copied elsewhere. */
+static void damage(unsigned char *bytes, size_t *size, unsigned *state)
+{
+    size_t at = (size_t)(reference_random(state) * (double)*size);
+
+    switch ((int)(reference_random(state) * 5)) {
+    case 0: bytes[at] ^= (unsigned char)(1 << (int)(reference_random(state) * 8)); break;
+    case 1: bytes[at] = (unsigned char)(reference_random(state) * 256); break;
+    case 2: bytes[at] = reference_random(state) < 0.5 ? 0xff : 0x7f; break;
+    case 3:
+        if (reference_random(state) < 0.2)
+            *size = at ? at : 1;
+        break;
+    default: {
+        size_t from = (size_t)(reference_random(state) * (double)*size), count = (size_t)(reference_random(state) * 32);
+
+        count = count < *size - from ? count : *size - from;
+        count = count < *size - at ? count : *size - at;
+        memmove(bytes + at, bytes + from, count);
+    }
+    }
+}
+
+/* 1 if loading the bytes in every way ends in success or in one sentence. */
+static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
+{
+    pe_image image;
+    pe_env *env;
+    pe_maps *maps;
+    pe_error error = { PE_OK, "" };
+    int sound = 1;
+
+    if (pe_image_read_memory(bytes, size, "fuzz", &image, &error) == PE_OK) {
+        pe_image_free(&image);
+        ++*loaded;
+    } else {
+        sound &= error.message[0] && !strchr(error.message, '\n');
+    }
+    if (pe_env_read_memory(bytes, size, "fuzz", &env, &error) == PE_OK)
+        pe_env_free(env);
+    if (pe_maps_read_memory(bytes, size, "fuzz", &maps, &error) == PE_OK) {
+        static const double n[3] = { 1, 2, 3 };
+        double rgb[3];
+
+        pe_sample(maps, NULL, n, n, rgb);
+        pe_maps_free(maps);
+    } else {
+        sound &= error.message[0] && !strchr(error.message, '\n');
+    }
+    pe_maps_detect(bytes, size);
+    return sound;
+}
+
+static void test_seed(const seed *s)
+{
+    static unsigned char bytes[SIZE_MAX_BYTES];
+    unsigned state = 99;
+    int sound = 1, loaded = 0, whole = 0;
+
+    loads_or_says(s->bytes, s->size, &whole);
+    ok(whole == 1, "%s: %zu bytes load", s->name, s->size);
+    for (int round = 0; round < ROUNDS; round++) {
+        size_t size = s->size;
+
+        memcpy(bytes, s->bytes, size);
+        for (int k = 0; k <= round % 4; k++)
+            damage(bytes, &size, &state);
+        sound &= loads_or_says(bytes, size, &loaded);
+    }
+    ok(sound, "%s: %d damaged copies, %d still load", s->name, ROUNDS, loaded);
+}
+
+int main(void)
+{
+    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" }, { .name = "HDR" } };
+
+    seed_maps(&seeds[0], PE_PIXEL_HALF);
+    seed_maps(&seeds[1], PE_PIXEL_FLOAT);
+    seed_png(&seeds[2]);
+    seed_hdr(&seeds[3]);
+    for (int k = 0; k < 4; k++)
+        test_seed(&seeds[k]);
+    return done_testing();
+}
