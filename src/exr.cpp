@@ -2,6 +2,7 @@
 #include "exr.h"
 
 extern "C" {
+#include "exr_header.h"
 #include "image.h"
 #include "status.h"
 }
@@ -297,6 +298,10 @@ bool pe_exr_detect(const unsigned char *bytes, size_t size)
 pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char *name, pe_image *image,
                             pe_error *error)
 {
+    const pe_status status = pe_exr_check_header(bytes, size, name, error);
+
+    if (status != PE_OK)
+        return status;
     *image = pe_image();
     return guarded(name, error, [&] { return read_image(bytes, size, name, image, error); });
 }
@@ -319,6 +324,10 @@ pe_status pe_exr_encode(const pe_exr_part *parts, int count, int width, int heig
 
 pe_status pe_exr_open(const unsigned char *bytes, size_t size, const char *name, pe_exr_file **file, pe_error *error)
 {
+    const pe_status status = pe_exr_check_header(bytes, size, name, error);
+
+    if (status != PE_OK)
+        return status;
     return guarded(name, error, [&] {
         *file = new pe_exr_file(bytes, size, name);
         return PE_OK;
