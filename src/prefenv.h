@@ -6,7 +6,7 @@
  * Seen from inside the sphere such a picture is mirrored, as it is in POV-Ray.
  *
  * UNITS.  Radiance is linear, scene-referred RGB.  Angles are in radians.  `alpha` is the microfacet width of the
- * normal distribution (its slope's root mean square times sqrt 2), not a perceptual roughness.
+ * normal distribution - sqrt 2 times the root mean square of the slope along one tangent - not a perceptual roughness.
  * Directions point away from the surface.  n: surface normal.  o: direction to the viewer.  r = 2 (o.n) n - o.
  *
  * TANGENTS.  A brush direction d gives t = normalize(d - (d.n) n) and b = n x t; alpha_x is the width along t,
