@@ -60,7 +60,7 @@ static void finish(const job *j, const pe_lights *lights, batch *points)
 {
     double sums[PE_FILTER_POINTS_MAX][4];
 
-    pe_filter_points(&j->maps->info.ndf, lights, (const float (*)[3])points->o, points->count, sums);
+    pe_filter_points(&j->maps->info.ndf, lights, (const float(*)[3])points->o, points->count, sums);
     for (size_t k = 0; k < points->count; k++)
         store(j->env, sums[k], points->world[k], points->out[k]);
     points->count = 0;
@@ -205,7 +205,7 @@ static pe_status fill_maps(const pe_env *env, pe_maps *maps, const pe_bake_optio
 
     if (status != PE_OK)
         return status;
-    j.lobe_reach = info->accuracy == PE_ACCURACY_EXACT ? M_PI : pe_lobe_reach(&info->ndf, FAST_LIMIT);
+    j.lobe_reach = pe_lobe_reach(&info->ndf, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
     status = info->method == PE_METHOD_BASELINE ? bake_baseline(&j, options->threads, &report, error)
                                                 : bake_images(&j, options->threads, &report, error);
     pe_cloud_free(&cloud);

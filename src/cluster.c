@@ -4,7 +4,8 @@
  * node's texels j by one light at their mean direction errs by at most about sum_j w_j |omega_j - mean|^2 times the
  * lobe's curvature, with w_j = (luminance + floor) times solid angle; so, starting from the whole image, the node with
  * the greatest such sum is split until there are `count` leaves.  The floor, a share of the mean luminance, keeps dark
- * areas from being one light: their solid angle counts in Eq. 5's denominator.  A small sun ends up alone in its texels. */
+ * areas from being one light: their solid angle counts in Eq. 5's denominator.  A small sun ends up alone in its
+ * texels. */
 #include "cluster.h"
 
 #include "status.h"
@@ -25,7 +26,7 @@ typedef struct node {
 
 /* Sums over a node's texels. */
 typedef struct moments {
-    double weight, direction[3];  /* of w_j and w_j omega_j */
+    double weight, direction[3];   /* of w_j and w_j omega_j */
     double solid_angle_sr, rgb[3]; /* of solid angle, and radiance times solid angle */
 } moments;
 
@@ -130,8 +131,8 @@ static void add_node(tree *t, rect area)
 /* Which side is longer on the sphere: a column's width shrinks with sin(theta). */
 static int is_wide(const tree *t, const rect *area)
 {
-    double width = 2 * M_PI * (area->right - area->left) / t->env->width *
-                   t->env->grid.sin_theta[(area->top + area->bottom) / 2];
+    double width =
+        2 * M_PI * (area->right - area->left) / t->env->width * t->env->grid.sin_theta[(area->top + area->bottom) / 2];
     double height = M_PI * (area->bottom - area->top) / t->env->height;
 
     if (area->right - area->left < 2)

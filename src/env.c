@@ -38,8 +38,7 @@ pe_status pe_grid_make(int width, int height, pe_grid *grid, pe_error *error)
 
     if (!values)
         return pe_fail_memory(error, "a table of directions");
-    *grid = (pe_grid){ width,          height,         values,        values + h, values + 2 * h, values + 2 * h + w,
-                       values + 2 * h + 2 * w };
+    *grid = (pe_grid){ width, height, values, values + h, values + 2 * h, values + 2 * h + w, values + 2 * h + 2 * w };
     for (int y = 0; y < height; y++) {
         double theta = M_PI * (y + 0.5) / height;
 

@@ -59,7 +59,7 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
         o[0][0] = (float)-w[0];
         o[0][1] = (float)-w[1];
         o[0][2] = (float)w[2];
-        pe_filter_points(&t->maps->info.ndf, lights, (const float (*)[3])o, 1, sums);
+        pe_filter_points(&t->maps->info.ndf, lights, (const float(*)[3])o, 1, sums);
         compare(t, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
@@ -70,7 +70,7 @@ static void try_normal(trial *t, pe_lights *lights)
     pe_frame frame;
 
     pe_frame_make(pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame);
-    pe_lights_fill(t->cloud, &frame, M_PI, lights);
+    pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights);
     try_texels(t, vertex / 2, &frame, lights);
 }
 
@@ -86,7 +86,7 @@ static void try_baseline(trial *t, pe_lights *lights)
         place_texel(t, k, &x, &y);
         pe_grid_direction(&t->maps->grid, x, y, world);
         pe_frame_make(world, t->maps->info.direction, &frame);
-        pe_lights_fill(t->cloud, &frame, M_PI, lights);
+        pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights);
         pe_filter_points(&t->maps->info.ndf, lights, head_on, 1, sums);
         compare(t, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
     }

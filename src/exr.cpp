@@ -12,9 +12,9 @@ extern "C" {
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
+#include <ImfIO.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
@@ -213,12 +213,18 @@ pe_status read_image(const unsigned char *bytes, size_t size, const char *name, 
 void set_attribute(Imf::Header &header, const pe_attribute &a)
 {
     switch (a.type) {
-    case PE_ATTRIBUTE_INT: header.insert(a.name, Imf::IntAttribute(a.integer)); break;
-    case PE_ATTRIBUTE_DOUBLE: header.insert(a.name, Imf::DoubleAttribute(a.number)); break;
+    case PE_ATTRIBUTE_INT:
+        header.insert(a.name, Imf::IntAttribute(a.integer));
+        break;
+    case PE_ATTRIBUTE_DOUBLE:
+        header.insert(a.name, Imf::DoubleAttribute(a.number));
+        break;
     case PE_ATTRIBUTE_VECTOR:
         header.insert(a.name, Imf::V3dAttribute(Imath::V3d(a.vector[0], a.vector[1], a.vector[2])));
         break;
-    case PE_ATTRIBUTE_STRING: header.insert(a.name, Imf::StringAttribute(a.string)); break;
+    case PE_ATTRIBUTE_STRING:
+        header.insert(a.name, Imf::StringAttribute(a.string));
+        break;
     }
 }
 
@@ -295,8 +301,7 @@ bool pe_exr_detect(const unsigned char *bytes, size_t size)
     return size >= 4 && std::memcmp(bytes, magic, 4) == 0;
 }
 
-pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char *name, pe_image *image,
-                            pe_error *error)
+pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
 {
     const pe_status status = pe_exr_check_header(bytes, size, name, error);
 

@@ -21,7 +21,12 @@ pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char 
 
 /* ---- files of several parts with attributes ---- */
 
-typedef enum pe_attribute_type { PE_ATTRIBUTE_INT, PE_ATTRIBUTE_DOUBLE, PE_ATTRIBUTE_VECTOR, PE_ATTRIBUTE_STRING } pe_attribute_type;
+typedef enum pe_attribute_type {
+    PE_ATTRIBUTE_INT,
+    PE_ATTRIBUTE_DOUBLE,
+    PE_ATTRIBUTE_VECTOR,
+    PE_ATTRIBUTE_STRING
+} pe_attribute_type;
 
 /* One header attribute: which field counts depends on the type. */
 typedef struct pe_attribute {

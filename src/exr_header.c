@@ -1,9 +1,9 @@
 /* exr_header.c - an OpenEXR header looked over before a library allocates what it says.
  *
- * OpenEXR 3.1 believes sizes: an attribute of 2 GiB in a file of 4 kB is allocated and cleared before the read fails, and
- * tables are made for as many scan lines as the data window claims.  The layout walked here is that of "OpenEXR File
- * Layout" (openexr.com): magic and version, four bytes each; per part a list of attributes - name, type, size, value -
- * ended by an empty name; with several parts an empty header after the last. */
+ * OpenEXR 3.1 believes sizes: an attribute of 2 GiB in a file of 4 kB is allocated and cleared before the read fails,
+ * and tables are made for as many scan lines as the data window claims.  The layout walked here is that of "OpenEXR
+ * File Layout" (openexr.com): magic and version, four bytes each; per part a list of attributes - name, type, size,
+ * value - ended by an empty name; with several parts an empty header after the last. */
 #include "exr_header.h"
 
 #include "status.h"
@@ -24,7 +24,7 @@ typedef struct walker {
 
 /* What one part claims. */
 typedef struct part {
-    int64_t width;       /* of the data window */
+    int64_t width;        /* of the data window */
     uint64_t texel_bytes; /* of all channels */
     uint64_t tile_texels; /* 0: scan lines */
 } part;
@@ -69,8 +69,9 @@ static pe_status check_window(const walker *w, const char *attribute, const unsi
         return pe_fail(w->error, PE_ERROR_FORMAT, "%s: %s is %lld x %lld, which is no size", w->name, attribute,
                        (long long)width, (long long)height);
     if (width > PE_IMAGE_TEXELS_MAX || height > PE_IMAGE_TEXELS_MAX || width * height > PE_IMAGE_TEXELS_MAX)
-        return pe_fail(w->error, PE_ERROR_LIMIT, "%s: %s is %lld x %lld, more than the %u texels read here; scale it down",
-                       w->name, attribute, (long long)width, (long long)height, PE_IMAGE_TEXELS_MAX);
+        return pe_fail(w->error, PE_ERROR_LIMIT,
+                       "%s: %s is %lld x %lld, more than the %u texels read here; scale it down", w->name, attribute,
+                       (long long)width, (long long)height, PE_IMAGE_TEXELS_MAX);
     if (strcmp(attribute, "dataWindow") == 0)
         p->width = width;
     return PE_OK;
@@ -135,9 +136,10 @@ static pe_status check_blocks(const walker *w, const part *p)
     uint64_t texels = p->tile_texels ? p->tile_texels : (uint64_t)p->width * BLOCK_LINES_MAX;
 
     if (p->texel_bytes && texels > BLOCK_BYTES_MAX / p->texel_bytes)
-        return pe_fail(w->error, PE_ERROR_LIMIT,
-                       "%s: its scan lines or tiles hold %llu bytes a texel, more than is read here; keep R, G, B alone",
-                       w->name, (unsigned long long)p->texel_bytes);
+        return pe_fail(
+            w->error, PE_ERROR_LIMIT,
+            "%s: its scan lines or tiles hold %llu bytes a texel, more than is read here; keep R, G, B alone", w->name,
+            (unsigned long long)p->texel_bytes);
     return PE_OK;
 }
 

@@ -6,9 +6,10 @@
  *     D(h) ~ (1 / cos^2)^2 exp(-(h_x^2 / ax^2 + h_y^2 / ay^2) / h_z^2)                           [Motegi Eq. 6]
  *
  * so a weight costs one division and one exponential, no square root and no trigonometry; the factor 1 / (pi ax ay)
- * cancels in the quotient.  The exponential is 2^-e = 2^k 2^f with k whole and |f| <= 1/2, 2^f by the polynomial
- * of degree 6 through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8).  Arithmetic is on vectors of 16 floats of GCC's vector extension, which
- * become AVX-512, AVX2 or SSE2 with the same bits: every lane sums its own lights, and contraction is off. */
+ * cancels in the quotient.  The exponential is 2^-e = 2^k 2^f with k whole and |f| <= 1/2, 2^f by the polynomial of
+ * degree 6 through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8).  Arithmetic is on vectors of
+ * 16 floats of GCC's vector extension, which become AVX-512, AVX2 or SSE2 with the same bits: every lane sums its own
+ * lights, and contraction is off. */
 #include "filter.h"
 
 #include "status.h"
@@ -58,30 +59,36 @@ void pe_cloud_free(pe_cloud *cloud)
     *cloud = (pe_cloud){ 0 };
 }
 
+static void set_light(const pe_env *env, int x, int y, size_t light, pe_cloud *cloud)
+{
+    const float *texel = env->rgb + 3 * ((size_t)y * (size_t)env->width + (size_t)x);
+    float weight = (float)env->grid.solid_angle_sr[y];
+    double direction[3];
+
+    pe_grid_direction(&env->grid, x, y, direction);
+    cloud->x[light] = direction[0];
+    cloud->y[light] = direction[1];
+    cloud->z[light] = direction[2];
+    cloud->weight_sr[light] = weight;
+    cloud->r[light] = weight * texel[0];
+    cloud->g[light] = weight * texel[1];
+    cloud->b[light] = weight * texel[2];
+}
+
+/* Tile by tile, so that a block of lights is compact and its cone narrow. */
 pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
-    const pe_grid *grid = &env->grid;
+    enum { TILE_WIDTH = 16, TILE_HEIGHT = PE_LIGHT_BLOCK / TILE_WIDTH };
     size_t light = 0;
     pe_status status = pe_cloud_allocate((size_t)env->width * (size_t)env->height, cloud, error);
 
     if (status != PE_OK)
         return status;
-    for (int y = 0; y < env->height; y++) {
-        float weight = (float)grid->solid_angle_sr[y];
-
-        for (int x = 0; x < env->width; x++, light++) {
-            double direction[3];
-
-            pe_grid_direction(grid, x, y, direction);
-            cloud->x[light] = direction[0];
-            cloud->y[light] = direction[1];
-            cloud->z[light] = direction[2];
-            cloud->weight_sr[light] = weight;
-            cloud->r[light] = weight * env->rgb[3 * light];
-            cloud->g[light] = weight * env->rgb[3 * light + 1];
-            cloud->b[light] = weight * env->rgb[3 * light + 2];
-        }
-    }
+    for (int top = 0; top < env->height; top += TILE_HEIGHT)
+        for (int left = 0; left < env->width; left += TILE_WIDTH)
+            for (int y = top; y < top + TILE_HEIGHT && y < env->height; y++)
+                for (int x = left; x < left + TILE_WIDTH && x < env->width; x++)
+                    set_light(env, x, y, light++, cloud);
     return PE_OK;
 }
 
@@ -141,7 +148,8 @@ static void set_cone(const pe_lights *lights, size_t block, size_t used, double 
     reach = acos(fmax(narrowest, -1)) + lobe_reach;
     for (int c = 0; c < 3; c++)
         cone->axis[c] = (float)axis[c];
-    cone->cos_reach = reach < M_PI ? (float)cos(reach) : -2;
+    /* A hair wider than it need be, for what single precision rounds away in matters(). */
+    cone->cos_reach = reach < M_PI ? (float)cos(reach) - 1e-5f : -2;
 }
 
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights)

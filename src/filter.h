@@ -20,7 +20,7 @@ typedef struct pe_cloud {
 pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error);
 void pe_cloud_free(pe_cloud *cloud);
 
-/* One light a texel. */
+/* One light a texel, neighbours close to each other. */
 pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error);
 
 #define PE_LIGHT_BLOCK 128
@@ -43,7 +43,7 @@ pe_status pe_lights_allocate(size_t cloud_count, pe_lights *lights, pe_error *er
 void pe_lights_free(pe_lights *lights);
 
 /* Fills lights with the hemisphere of the frame's normal.  lobe_reach: an angle from the mirror direction beyond which
- * a light does not matter; pi or more: every light counts. */
+ * a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 
 /* The angle from the mirror direction beyond which weights are below exp(-limit) of the mirror's.  A half vector moves
@@ -52,8 +52,7 @@ double pe_lobe_reach(const pe_ndf *ndf, double limit);
 
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,
  * each times D(h). A common factor of D is left out: only ratios of sums mean anything. */
-void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count,
-                      double (*sums)[4]);
+void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count, double (*sums)[4]);
 
 #define PE_FILTER_POINTS_MAX 64 /* most points in one call */
 

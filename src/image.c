@@ -33,8 +33,9 @@ pe_status pe_image_allocate(const char *name, long long width, long long height,
     if (width < 1 || height < 1)
         return pe_fail(error, PE_ERROR_FORMAT, "%s: size %lld x %lld is not a picture's", name, width, height);
     if (width > PE_IMAGE_TEXELS_MAX || height > PE_IMAGE_TEXELS_MAX || width * height > PE_IMAGE_TEXELS_MAX)
-        return pe_fail(error, PE_ERROR_LIMIT, "%s: size %lld x %lld is more than the %u texels read here; scale it down",
-                       name, width, height, PE_IMAGE_TEXELS_MAX);
+        return pe_fail(error, PE_ERROR_LIMIT,
+                       "%s: size %lld x %lld is more than the %u texels read here; scale it down", name, width, height,
+                       PE_IMAGE_TEXELS_MAX);
     texels = (size_t)(width * height);
     *image = (pe_image){ .width = (int)width, .height = (int)height };
     image->rgb = calloc(texels, 3 * sizeof *image->rgb);

@@ -76,8 +76,9 @@ static pe_status read_layout(reader *in, layout *l)
 {
     char line[LINE_MAX_LENGTH] = "", sign[2], axis[2], rest;
 
-    if (!next_line(in, line) || sscanf(line, "%c%c %lld %c%c %lld %c", &sign[0], &axis[0], &l->lines, &sign[1],
-                                       &axis[1], &l->length, &rest) != 6 ||
+    if (!next_line(in, line) ||
+        sscanf(line, "%c%c %lld %c%c %lld %c", &sign[0], &axis[0], &l->lines, &sign[1], &axis[1], &l->length, &rest) !=
+            6 ||
         !strchr("+-", sign[0]) || !strchr("+-", sign[1]) ||
         !((axis[0] == 'X' && axis[1] == 'Y') || (axis[0] == 'Y' && axis[1] == 'X')))
         return pe_fail(in->error, PE_ERROR_FORMAT, "%s: resolution line '%.40s' is not like '-Y 512 +X 1024'", in->name,

@@ -113,7 +113,8 @@ static pe_status read_png(reading *r, pe_image *image)
     png_set_user_limits(r->png, PE_IMAGE_TEXELS_MAX, PE_IMAGE_TEXELS_MAX);
     png_set_read_fn(r->png, &r->s, on_read);
     png_read_info(r->png, r->info);
-    alpha = (png_get_color_type(r->png, r->info) & PNG_COLOR_MASK_ALPHA) || png_get_valid(r->png, r->info, PNG_INFO_tRNS);
+    alpha =
+        (png_get_color_type(r->png, r->info) & PNG_COLOR_MASK_ALPHA) || png_get_valid(r->png, r->info, PNG_INFO_tRNS);
     status = pe_image_allocate(r->s.name, png_get_image_width(r->png, r->info), png_get_image_height(r->png, r->info),
                                alpha, image, r->s.error);
     if (status != PE_OK)

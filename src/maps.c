@@ -23,8 +23,9 @@ static pe_status check_normals(int normals, pe_error *error)
         return pe_fail(error, PE_ERROR_ARGUMENT,
                        "normals %d is not 10 f^2 + 2 for a whole f from 1 to %d; the nearest are %d and %d", normals,
                        PE_FREQUENCY_MAX, below, above);
-    return pe_fail(error, PE_ERROR_ARGUMENT, "normals %d is not 10 f^2 + 2 for a whole f from 1 to %d; the nearest is %d",
-                   normals, PE_FREQUENCY_MAX, below);
+    return pe_fail(error, PE_ERROR_ARGUMENT,
+                   "normals %d is not 10 f^2 + 2 for a whole f from 1 to %d; the nearest is %d", normals,
+                   PE_FREQUENCY_MAX, below);
 }
 
 static pe_status check_info(pe_maps_info *info, pe_error *error)

@@ -209,8 +209,8 @@ static pe_status check_version(const header *from)
 }
 
 /* Runs its call only if all before it went well. */
-#define AND_THEN(call)      \
-    if (status == PE_OK)    \
+#define AND_THEN(call) \
+    if (status == PE_OK) \
         status = (call);
 
 static pe_status read_info(const header *from, pe_maps_info *info)

@@ -36,12 +36,12 @@ extern "C" {
 
 typedef enum pe_status {
     PE_OK = 0,
-    PE_ERROR_ARGUMENT,  /* a value given by the caller is out of range */
-    PE_ERROR_FILE,      /* a file cannot be opened, read, written or renamed */
-    PE_ERROR_FORMAT,    /* the bytes are not what they should be */
-    PE_ERROR_LIMIT,     /* larger than this library is willing to handle */
-    PE_ERROR_MEMORY,    /* out of memory */
-    PE_ERROR_CANCELLED  /* the progress function asked to stop */
+    PE_ERROR_ARGUMENT, /* a value given by the caller is out of range */
+    PE_ERROR_FILE,     /* a file cannot be opened, read, written or renamed */
+    PE_ERROR_FORMAT,   /* the bytes are not what they should be */
+    PE_ERROR_LIMIT,    /* larger than this library is willing to handle */
+    PE_ERROR_MEMORY,   /* out of memory */
+    PE_ERROR_CANCELLED /* the progress function asked to stop */
 } pe_status;
 
 typedef struct pe_error {
@@ -214,10 +214,10 @@ void pe_maps_free(pe_maps *maps); /* NULL is allowed */
 
 /* The numbers are those of `method` in POV-Ray's prefiltered_environment block. */
 typedef enum pe_interpolation {
-    PE_INTERPOLATION_DEFAULT = 0, /* linear */
-    PE_INTERPOLATION_NEAREST = 1, /* the nearest representative normal [Motegi Fig. 4a] */
+    PE_INTERPOLATION_DEFAULT = 0,  /* linear */
+    PE_INTERPOLATION_NEAREST = 1,  /* the nearest representative normal [Motegi Fig. 4a] */
     PE_INTERPOLATION_WEIGHTED = 2, /* [Motegi Eq. 7] */
-    PE_INTERPOLATION_LINEAR = 3   /* barycentric over the geodesic triangle that holds n */
+    PE_INTERPOLATION_LINEAR = 3    /* barycentric over the geodesic triangle that holds n */
 } pe_interpolation;
 
 typedef struct pe_sampling {

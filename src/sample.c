@@ -143,7 +143,9 @@ static void sample_representative(const pe_maps *maps, const pe_sampling *sampli
     mix sum = { { 0 }, 0 };
 
     switch (sampling->interpolation) {
-    case PE_INTERPOLATION_NEAREST: add_map(maps, at, nearest_vertex(maps, n), 1, &sum); break;
+    case PE_INTERPOLATION_NEAREST:
+        add_map(maps, at, nearest_vertex(maps, n), 1, &sum);
+        break;
     case PE_INTERPOLATION_WEIGHTED: {
         double half_frequency = maps->info.frequency / 2.0;
         double exponent = sampling->exponent > 0 ? sampling->exponent : 50 * half_frequency * half_frequency;
@@ -152,7 +154,9 @@ static void sample_representative(const pe_maps *maps, const pe_sampling *sampli
         break;
     }
     case PE_INTERPOLATION_DEFAULT:
-    case PE_INTERPOLATION_LINEAR: mix_linear(maps, at, n, &sum); break;
+    case PE_INTERPOLATION_LINEAR:
+        mix_linear(maps, at, n, &sum);
+        break;
     }
     if (!(sum.weight > 0))
         mix_rest(maps, at->r, n, &sum);
