@@ -81,8 +81,8 @@ done
 same exposed.hdr plain.hdr 0 'HDR whose EXPOSURE is 2'
 
 # PNG: linear light from sRGB, within half a step of the depth.
-oiiotool --pattern fill:topleft=0,0.1,0.5:topright=1,0.5,0:bottomleft=0.2,1,0.7:bottomright=0.9,0.3,0.5 50x27 3 -d float \
-    --iscolorspace sRGB -o srgb.exr
+oiiotool --pattern fill:topleft=0,0.1,0.5:topright=1,0.5,0:bottomleft=0.2,1,0.7:bottomright=0.9,0.3,0.5 50x27 3 \
+    -d float --iscolorspace sRGB -o srgb.exr
 oiiotool srgb.exr --colorconvert sRGB linear -d float -o linear.exr
 oiiotool srgb.exr --iscolorspace sRGB -d uint8 -o 8.png
 oiiotool srgb.exr --iscolorspace sRGB -d uint16 -o 16.png

@@ -19,9 +19,9 @@ void reference_reflection(const float *rgb, int width, int height, double alpha_
 /* ---- environments that hurt, and the means to make more; release with free() ---- */
 
 float *reference_constant(int width, int height, float value);
-float *reference_noise(int width, int height, unsigned seed);            /* each channel uniform in [0, 1) */
+float *reference_noise(int width, int height, unsigned seed);                 /* each channel uniform in [0, 1) */
 float *reference_lit_texel(int width, int height, int x, int y, float value); /* black but for one texel */
-float *reference_half_white(int width, int height, const double n[3]);   /* 1 where direction.n > 0, else 0 */
+float *reference_half_white(int width, int height, const double n[3]);        /* 1 where direction.n > 0, else 0 */
 
 /* A fixed sequence in [0, 1), and unit vectors spread evenly over the sphere by it. */
 double reference_random(unsigned *state);

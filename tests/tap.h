@@ -1,4 +1,5 @@
-/* tap.h - the few lines of Test Anything Protocol that a C test needs: ok() for each claim, done_testing() at the end. */
+/* tap.h - the few lines of Test Anything Protocol that a C test needs: ok() for each claim, done_testing() at the
+ * end. */
 #ifndef TAP_H
 #define TAP_H
 

@@ -1,5 +1,5 @@
-/* test-decimal.c - the command's fast numbers against the C library's: printf("%.9g") byte for byte, strtod bit for bit.
- */
+/* test-decimal.c - the command's fast numbers against the C library's: printf("%.9g") byte for byte, strtod bit for
+ * bit. */
 #include "cli/decimal.h"
 #include "tap.h"
 

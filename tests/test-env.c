@@ -52,7 +52,7 @@ static void test_frame(void)
 {
     static const struct {
         double d[3], u, v;
-    } known[] = { { { 1, 0, 0 }, 0, 0.5 },    { { 0, 0, 1 }, 0.25, 0.5 }, { { -1, 0, 0 }, 0.5, 0.5 },
+    } known[] = { { { 1, 0, 0 }, 0, 0.5 },     { { 0, 0, 1 }, 0.25, 0.5 }, { { -1, 0, 0 }, 0.5, 0.5 },
                   { { 0, 0, -1 }, 0.75, 0.5 }, { { 0, 2, 0 }, 0, 0 },      { { 0, -3, 0 }, 0, 1 } };
 
     for (int k = 0; k < 6; k++) {
@@ -112,8 +112,8 @@ static void test_continuity(int width, int height)
             memcpy(before, rgb, sizeof before);
         }
     }
-    ok(largest < 2 * (width + 2 * height) * 2 * M_PI / steps, "%d x %d: no step along a circle exceeds %.2e",
-       width, height, largest);
+    ok(largest < 2 * (width + 2 * height) * 2 * M_PI / steps, "%d x %d: no step along a circle exceeds %.2e", width,
+       height, largest);
     pe_env_free(env);
 }
 

@@ -1,4 +1,5 @@
-/* test-filter.c - claim: production filter and exact twin agree with the naive reference, environments that hurt included.
+/* test-filter.c - claim: production filter and exact twin agree with the naive reference, environments that hurt
+ * included.
  *
  * Production is single precision, so its bound is relative: 1e-5 of a texel's value, where a sun many lobes away is all
  * there is to see; the root mean square over a map is held to 3e-6. */
@@ -145,8 +146,8 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
             count++;
         }
     }
-    ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "alpha %g, %g: Monte Carlo's mean, z = %.2f", alpha_x, alpha_y,
-       sum / count / sqrt(sum2 / count / count));
+    ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "alpha %g, %g: Monte Carlo's mean, z = %.2f", alpha_x,
+       alpha_y, sum / count / sqrt(sum2 / count / count));
     ok(sqrt(sum2 / count) < 0.01, "alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", alpha_x, alpha_y,
        sqrt(sum2 / count));
     pe_env_free(env);

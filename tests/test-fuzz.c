@@ -1,7 +1,8 @@
 /* test-fuzz.c - claim: no bytes make a loader crash, hang or speak in more than one sentence.
  *
  * Small valid files of every kind are damaged in a fixed, random way some thousand times and loaded.  Run under a
- * sanitizer (`make check-c` in a build configured with --enable-sanitizer=address,undefined) it sees more than crashes. */
+ * sanitizer (`make check-c` in a build configured with --enable-sanitizer=address,undefined) it sees more than
+ * crashes. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -36,7 +37,7 @@ static void seed_maps(seed *s, pe_pixel_type type)
     float *rgb = reference_noise(16, 8, 1);
     pe_bake_options options = { .normals = 12, .width = 8, .height = 4, .ndf = { PE_NDF_BECKMANN, 0.5, 0.5 } };
     pe_env *env;
-    pe_maps *maps;
+    pe_maps *maps = NULL;
 
     close(mkstemp(path));
     need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
@@ -95,9 +96,15 @@ static void damage(unsigned char *bytes, size_t *size, unsigned *state)
     size_t at = (size_t)(reference_random(state) * (double)*size);
 
     switch ((int)(reference_random(state) * 5)) {
-    case 0: bytes[at] ^= (unsigned char)(1 << (int)(reference_random(state) * 8)); break;
-    case 1: bytes[at] = (unsigned char)(reference_random(state) * 256); break;
-    case 2: bytes[at] = reference_random(state) < 0.5 ? 0xff : 0x7f; break;
+    case 0:
+        bytes[at] ^= (unsigned char)(1 << (int)(reference_random(state) * 8));
+        break;
+    case 1:
+        bytes[at] = (unsigned char)(reference_random(state) * 256);
+        break;
+    case 2:
+        bytes[at] = reference_random(state) < 0.5 ? 0xff : 0x7f;
+        break;
     case 3:
         if (reference_random(state) < 0.2)
             *size = at ? at : 1;
@@ -117,7 +124,7 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
 {
     pe_image image;
     pe_env *env;
-    pe_maps *maps;
+    pe_maps *maps = NULL;
     pe_error error = { PE_OK, "" };
     int sound = 1;
 

@@ -1,5 +1,5 @@
-/* test-maps.c - claims: a maps file read and written again has the same bytes; threads change nothing; what is wrong with
- * a file or an option is said in one sentence, and nothing is left behind. */
+/* test-maps.c - claims: a maps file read and written again has the same bytes; threads change nothing; what is wrong
+ * with a file or an option is said in one sentence, and nothing is left behind. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -31,7 +31,6 @@ static size_t read_bytes(const char *path, unsigned char *bytes, size_t room)
         fclose(file);
     return size;
 }
-
 
 static int same_bytes(const char *a, const char *b)
 {

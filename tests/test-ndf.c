@@ -6,7 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double alphas[][2] = { { 0.1, 0.1 }, { 0.1, 0.03 }, { 0.02, 0.02 }, { 0.6, 0.6 }, { 0.05, 0.5 }, { 2, 2 } };
+static const double alphas[][2] = {
+    { 0.1, 0.1 }, { 0.1, 0.03 }, { 0.02, 0.02 }, { 0.6, 0.6 }, { 0.05, 0.5 }, { 2, 2 }
+};
 #define CASES (int)(sizeof alphas / sizeof *alphas)
 
 static void spherical(double theta, double phi, double h[3])

@@ -1,5 +1,6 @@
-/* test-sample.c - claims: a white furnace is 1 everywhere; light behind a surface never leaks into it; at a representative
- * normal a lookup is the exact answer; between them the modes come closer in the order the papers state. */
+/* test-sample.c - claims: a white furnace is 1 everywhere; light behind a surface never leaks into it; at a
+ * representative normal a lookup is the exact answer; between them the modes come closer in the order the papers
+ * state. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -9,8 +10,10 @@
 #include <string.h>
 
 static const double plus_y[3] = { 0, 1, 0 };
-static const pe_sampling modes[] = { { PE_INTERPOLATION_NEAREST, 0 },  { PE_INTERPOLATION_WEIGHTED, 10 },
-                                     { PE_INTERPOLATION_WEIGHTED, 0 }, { PE_INTERPOLATION_LINEAR, 0 },
+static const pe_sampling modes[] = { { PE_INTERPOLATION_NEAREST, 0 },
+                                     { PE_INTERPOLATION_WEIGHTED, 10 },
+                                     { PE_INTERPOLATION_WEIGHTED, 0 },
+                                     { PE_INTERPOLATION_LINEAR, 0 },
                                      { PE_INTERPOLATION_DEFAULT, 0 } };
 static const char *const mode_names[] = { "nearest", "weighted 10", "weighted 50", "linear", "default" };
 #define MODES 5
@@ -107,7 +110,8 @@ static void test_half_white(int k, int side)
         pe_exact(env, &pe_maps_get_info(maps)->ndf, plus_y, n, o, exact);
         worst = fmax(worst, exact[0]);
     }
-    ok(worst < LEAK_MAX, "half-white environment: nothing leaks into normal %d%s (%.1e)", k, side ? ", opposite" : "", worst);
+    ok(worst < LEAK_MAX, "half-white environment: nothing leaks into normal %d%s (%.1e)", k, side ? ", opposite" : "",
+       worst);
     pe_maps_free(maps);
     pe_env_free(env);
 }
@@ -163,8 +167,9 @@ static void test_lit_texel(int k, int side)
         else
             leak = fmax(leak, rgb[0]);
     }
-    ok(leak < 1000 * LEAK_MAX && seen > 1, "a lit texel %s the equator of normal %d: own side sees %.3g, the other %.3g",
-       side ? "below" : "above", k, seen, leak);
+    ok(leak < 1000 * LEAK_MAX && seen > 1,
+       "a lit texel %s the equator of normal %d: own side sees %.3g, the other %.3g", side ? "below" : "above", k, seen,
+       leak);
     pe_maps_free(maps);
     pe_env_free(env);
 }
