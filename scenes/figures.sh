@@ -1,0 +1,250 @@
+#!/bin/bash
+# figures.sh - `make figures`: Fig. 4, 5 and 6 (b-e) of [Motegi] with the bunny under the courtyard, ours beside them, and
+# the table of errors.  scenes/README.md says what each shows.
+#
+# Written into figures/ of the build tree: NAME.png, NAME.exr (linear, half floats) and NAME.txt (the command that made
+# it) for every picture, table.md and table.json.  What is up to date is left as it is, and said to be; a picture is up
+# to date if it is no older than its scene, its maps and the renderer, and was made by the same command.
+#
+# HDRI and ALPHA, which `make bunny` listens to, change nothing here: the figures are of one experiment.
+#
+# Fails if the errors are not in the paper's order, baseline > nearest > a = 50, with ours below.
+
+set -euo pipefail
+
+die()
+{
+    printf 'make figures: %s\n' "$*" >&2
+    exit 1
+}
+
+. "${srcdir:?call this through make}/scenes/common.sh"
+
+hdri=$PREFENV_DATA/hdri/courtyard.exr
+alpha=0.1
+samples=2048
+side=1024
+
+figures=$top_builddir/figures
+work=$figures/work
+scenes=$srcdir/scenes
+started=$(now)
+mkdir -p "$work"
+cd "$figures"
+trap 'rm -f work/*.part.*' EXIT
+trap 'exit 130' INT TERM HUP
+[ -f "$hdri" ] || die "$hdri does not exist: run ./bootstrap, which fetches it"
+
+say()
+{
+    printf '%-10s %s\n' "$1" "$2"
+}
+
+# value FILE.json KEY: a number or string out of what `prefenv --json` printed, a line a key
+value()
+{
+    sed -n 's/^ *"'"$2"'": *"\{0,1\}\([^",]*\)"\{0,1\},\{0,1\}$/\1/p' "$1" | head -n 1
+}
+
+# same COMMAND FILE: was the command in FILE this one?
+same()
+{
+    [ -f "$2" ] && [ "$(cat "$2")" = "$1" ]
+}
+
+# bake NAME OPTION...: work/NAME.exr; NAME.json says what the bake said, and how long it took
+bake()
+{
+    local name=$1 target=work/$1.exr begun command
+
+    shift
+    command="$PREFENV bake $hdri -o $target $*"
+    if newer "$target" "$hdri" "$PREFENV" && [ -f "work/$name.seconds" ] && same "$command" "work/$name.txt"; then
+        say "$name.exr" 'up to date'
+        return
+    fi
+    rm -f "work/$name.txt"
+    begun=$(now)
+    "$PREFENV" bake "$hdri" -o "$target" --quiet "$@" || die "$name.exr was not baked; see above"
+    seconds_since "$begun" >"work/$name.seconds"
+    "$PREFENV" info --json "$target" >"work/$name.json"
+    echo "$command" >"work/$name.txt"
+    say "$name.exr" "baked in $(cat "work/$name.seconds") s"
+}
+
+# png NAME: NAME.exr as NAME.png
+png()
+{
+    ln -sf "../$1.exr" work/picture.exr
+    render "work/$1.png.log" "$scenes/view.pov" "work/$1.part.png" "+W$2" "+H$3" -A +Lwork
+    mv "work/$1.part.png" "$1.png"
+}
+
+# exr NAME SCENE WIDTH HEIGHT OPTION...: NAME.exr and NAME.png; its trace time goes into work/NAME.seconds
+exr()
+{
+    local name=$1 scene=$scenes/$2 width=$3 height=$4 command
+
+    shift 4
+    command="$POVRAY_PREFENV +I$scene +O$figures/$name.exr +FE +W$width +H$height $* +L$figures/work +L$scenes -D"
+    if newer "$name.exr" "$scene" "$scenes"/{bunny_scene,ndf_plot}.inc "$POVRAY_PREFENV" work/{maps,baseline,environment}.exr \
+        work/bunny_mesh.inc && newer "$name.png" "$name.exr" "$scenes/view.pov" && same "$command" "$name.txt"; then
+        say "$name" "up to date, traced in $(cat "work/$name.seconds") s"
+        return
+    fi
+    rm -f "$name.txt"
+    render "work/$name.log" "$scene" "work/$name.part.exr" "+W$width" "+H$height" "$@" +Lwork
+    echo "$trace_seconds" >"work/$name.seconds"
+    mv "work/$name.part.exr" "$name.exr"
+    png "$name" "$width" "$height"
+    echo "$command" >"$name.txt"
+    say "$name" "traced in $(cat "work/$name.seconds") s"
+}
+
+# sheet NAME INPUT...: NAME.png out of NAME.pov and other figures' PNGs; as large as panels.inc says
+sheet()
+{
+    local name=$1 columns side enlarged width height
+
+    shift
+    columns=$(sed -n 's/^#declare Columns = \([0-9]*\);/\1/p' "$scenes/$name.pov")
+    side=$(sed -n 's/^#declare Side = \([0-9]*\);/\1/p' "$scenes/$name.pov")
+    enlarged=$(sed -n 's/^#declare Enlarged = \([0-9]*\);/\1/p' "$scenes/$name.pov")
+    side=${side:-384} enlarged=${enlarged:-1}
+    width=$((columns * (side + 12) + 12)) height=$((80 + side + enlarged * (12 + side)))
+    if newer "$name.png" "$@" "$scenes/$name.pov" "$scenes/panels.inc" "$0"; then
+        say "$name" 'up to date'
+        return
+    fi
+    render "work/$name.log" "$scenes/$name.pov" "work/$name.part.png" "+W$width" "+H$height" +A0.0 +AM1 +R4 -J +L. +Lwork
+    mv "work/$name.part.png" "$name.png"
+    echo "$POVRAY_PREFENV +I$scenes/$name.pov +O$figures/$name.png +W$width +H$height +A0.0 +AM1 +R4 -J" \
+        "+L$figures +L$figures/work +L$scenes -D" >"$name.txt"
+    say "$name" 'done'
+}
+
+# ---- maps and pictures ----
+
+make_mesh work
+if [ ! work/environment.exr -ef "$hdri" ]; then ln -sf "$hdri" work/environment.exr; fi
+bake maps --alpha $alpha
+bake baseline --alpha $alpha --method baseline
+
+# One ray a pixel, through its middle, so that all of them see the same points.
+exr mask mask.pov $side $side -A
+exr fig6c fig6c.pov $side $side -A
+exr fig6d fig6d.pov $side $side -A
+exr fig6e fig6e.pov $side $side -A
+exr fig6f fig6f.pov $side $side -A
+exr fig4b fig4b.pov $side $side -A
+exr fig5a fig5a.pov 1024 512 -A
+exr fig5b fig5b.pov 960 800 +A0.1 +AM2 -J
+exr fig5c fig5c.pov 960 800 +A0.1 +AM2 -J
+exr fig6b-half fig6b.pov $side $side -A Declare=Samples=$((samples / 2))
+exr fig6b fig6b.pov $side $side -A Declare=Samples=$samples
+
+# ---- the table ----
+
+pictures='fig6b-half fig6c fig6d fig6e fig6f'
+for name in $pictures; do
+    "$PREFENV" diff $name.exr fig6b.exr --mask mask.exr --json >work/$name.diff.json ||
+        die "$name.exr could not be compared with fig6b.exr; see above"
+done
+
+what() # NAME
+{
+    case $1 in
+        fig6b) echo "(b) reference, $samples samples" ;;
+        fig6b-half) echo "(b) with $((samples / 2)) samples" ;;
+        fig6c) echo '(c) baseline' ;;
+        fig6d) echo '(d) nearest' ;;
+        fig6e) echo '(e) weighted, a = 50' ;;
+        fig6f) echo 'ours: linear' ;;
+    esac
+}
+
+baked() # NAME: seconds of its bake, or nothing
+{
+    case $1 in
+        fig6c) cat work/baseline.seconds ;;
+        fig6[def]) cat work/maps.seconds ;;
+    esac
+}
+
+levels() # NAME: mean |difference| in 256 levels, over the channels too
+{
+    sed -n 's/^ *"level_mean": \[\([^]]*\)\].*/\1/p' work/$1.diff.json | awk -F, '{ printf "%.3f", ($1 + $2 + $3) / 3 }'
+}
+
+error_estimate=$(value work/maps.json error_estimate)
+pixels=$(value work/fig6c.diff.json pixels)
+{
+    echo '# Fig. 6: errors against (b), over the pixels of the object'
+    echo
+    echo "Stanford bunny, $side x $side, $pixels pixels of the object, alpha $alpha, environment $(basename "$hdri");" \
+        'MSE in linear radiance.'
+    echo "Relative RMSE: RMSE / mean of (b). Levels: mean |difference| in 256 levels of sRGB, clipped as a display does."
+    echo "Seconds on $(nproc) processors: POV-Ray's \"Trace Time\" at one ray a pixel; bake as measured." \
+        "The bake's own estimate of its relative error is $error_estimate."
+    echo
+    echo '| picture | MSE | relative RMSE | levels | trace, s | bake, s |'
+    echo '|---|---|---|---|---|---|'
+    echo "| $(what fig6b) | | | | $(cat work/fig6b.seconds) | |"
+    for name in $pictures; do
+        printf '| %s | %s | %s %% | %s | %s | %s |\n' "$(what $name)" "$(value work/$name.diff.json mse)" \
+            "$(awk -v r="$(value work/$name.diff.json relative_rmse)" 'BEGIN { printf "%.2f", 100 * r }')" \
+            "$(levels $name)" "$(cat work/$name.seconds)" "$(baked $name)"
+    done
+} >work/table.part.md
+{
+    echo '{'
+    echo "  \"environment\": \"$(basename "$hdri")\", \"alpha\": $alpha, \"width\": $side, \"height\": $side,"
+    echo "  \"pixels\": $pixels, \"processors\": $(nproc), \"bake_error_estimate\": $error_estimate,"
+    echo '  "pictures": ['
+    echo "    {\"name\": \"fig6b\", \"what\": \"$(what fig6b)\", \"trace_seconds\": $(cat work/fig6b.seconds)},"
+    for name in $pictures; do
+        [ $name = fig6f ] && comma='' || comma=,
+        bake_seconds=$(baked $name)
+        echo "    {\"name\": \"$name\", \"what\": \"$(what $name)\", \"mse\": $(value work/$name.diff.json mse)," \
+            "\"relative_rmse\": $(value work/$name.diff.json relative_rmse)," \
+            "\"relative_l2\": $(value work/$name.diff.json relative_l2), \"level_mean\": $(levels $name)," \
+            "\"trace_seconds\": $(cat work/$name.seconds), \"bake_seconds\": ${bake_seconds:-null}}$comma"
+    done
+    echo '  ]'
+    echo '}'
+} >work/table.part.json
+mv work/table.part.md table.md
+mv work/table.part.json table.json
+
+# ---- side by side ----
+
+mse() # NAME
+{
+    value work/$1.diff.json mse
+}
+
+{
+    echo "// written by figures.sh"
+    echo "#declare Reference_Samples = $samples;"
+    echo "#declare Mse_C = $(mse fig6c);"
+    echo "#declare Mse_D = $(mse fig6d);"
+    echo "#declare Mse_E = $(mse fig6e);"
+    echo "#declare Mse_F = $(mse fig6f);"
+    echo "#declare Time_B = \"traced in $(awk '{ printf "%.0f", $1 }' work/fig6b.seconds) s\";"
+    echo "#declare Time_E = \"traced in $(awk '{ printf "%.1f", $1 }' work/fig6e.seconds) s\";"
+} >work/numbers.part.inc
+if cmp -s work/numbers.part.inc work/fig6_numbers.inc; then rm work/numbers.part.inc; else
+    mv work/numbers.part.inc work/fig6_numbers.inc
+fi
+sheet fig4 fig6d.png fig4b.png fig6e.png
+sheet fig6 fig6b.png fig6c.png fig6d.png fig6e.png fig6f.png work/fig6_numbers.inc
+sheet readme fig6b.png fig6e.png work/fig6_numbers.inc
+
+echo
+cat table.md
+echo
+echo "$figures: Fig. 4, 5, 6 and the table, in $(seconds_since "$started") s"
+
+awk -v c="$(mse fig6c)" -v d="$(mse fig6d)" -v e="$(mse fig6e)" -v f="$(mse fig6f)" \
+    'BEGIN { exit !(c > d && d > e && e > f) }' ||
+    die "the errors are not in the paper's order, (c) > (d) > (e), with ours below: see figures/table.md"
