@@ -47,7 +47,8 @@ make_mesh "$cache"
 ln -s "$hdri" "$work/environment.$suffix"
 ln -s ../bunny.pe.exr "$work/maps.exr"
 cd "$work"
-render "$cache/bunny.log" "$srcdir/scenes/bunny.pov" bunny.png +W1024 +H1024 +A0.1 +AM2 +R2 "+L$cache" Declare=Kind=$kind
+render "$cache/bunny.log" "$srcdir/scenes/bunny.pov" bunny.png +W1024 +H1024 +A0.1 +AM2 +R2 "+L$cache" \
+    Declare=Kind=$kind
 mv bunny.png "$figures/bunny.png"
 
 echo "$figures/bunny.png: 1024x1024; bake $bake_seconds s, trace ${trace_seconds} s, all $(seconds_since "$started") s"
