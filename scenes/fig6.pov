@@ -1,4 +1,5 @@
-// fig6.pov - [Motegi Fig. 6 b-e] and ours, side by side; fig6_numbers.inc, by figures.sh, says how far from (b) each is.
+// fig6.pov - [Motegi Fig. 6 b-e] and ours, side by side; fig6_numbers.inc, by figures.sh, says how far from (b) each
+// is.
 
 #version 3.7;
 #include "fig6_numbers.inc"

@@ -1,6 +1,6 @@
 #!/bin/bash
-# figures.sh - `make figures`: Fig. 4, 5 and 6 (b-e) of [Motegi] with the bunny under the courtyard, ours beside them, and
-# the table of errors.  scenes/README.md says what each shows.
+# figures.sh - `make figures`: Fig. 4, 5 and 6 (b-e) of [Motegi] with the bunny under the courtyard, ours beside them,
+# and the table of errors.  scenes/README.md says what each shows.
 #
 # Written into figures/ of the build tree: NAME.png, NAME.exr (linear, half floats) and NAME.txt (the command that made
 # it) for every picture, table.md and table.json.  What is up to date is left as it is, and said to be; a picture is up
@@ -87,8 +87,8 @@ exr()
 
     shift 4
     command="$POVRAY_PREFENV +I$scene +O$figures/$name.exr +FE +W$width +H$height $* +L$figures/work +L$scenes -D"
-    if newer "$name.exr" "$scene" "$scenes"/{bunny_scene,ndf_plot}.inc "$POVRAY_PREFENV" work/{maps,baseline,environment}.exr \
-        work/bunny_mesh.inc && newer "$name.png" "$name.exr" "$scenes/view.pov" && same "$command" "$name.txt"; then
+    if newer "$name.exr" "$scene" "$scenes"/{bunny_scene,ndf_plot}.inc "$POVRAY_PREFENV" \
+        work/{maps,baseline,environment}.exr work/bunny_mesh.inc && newer "$name.png" "$name.exr" "$scenes/view.pov" && same "$command" "$name.txt"; then
         say "$name" "up to date, traced in $(cat "work/$name.seconds") s"
         return
     fi
@@ -108,7 +108,7 @@ sheet()
 
     shift
     columns=$(sed -n 's/^#declare Columns = \([0-9]*\);/\1/p' "$scenes/$name.pov")
-    side=$(sed -n 's/^#declare Side = \([0-9]*\);/\1/p' "$scenes/$name.pov")
+    side=$(sed -n 's/.*#declare Side = \([0-9]*\);.*/\1/p' "$scenes/$name.pov")
     enlarged=$(sed -n 's/^#declare Enlarged = \([0-9]*\);/\1/p' "$scenes/$name.pov")
     side=${side:-384} enlarged=${enlarged:-1}
     width=$((columns * (side + 12) + 12)) height=$((80 + side + enlarged * (12 + side)))
@@ -116,7 +116,8 @@ sheet()
         say "$name" 'up to date'
         return
     fi
-    render "work/$name.log" "$scenes/$name.pov" "work/$name.part.png" "+W$width" "+H$height" +A0.0 +AM1 +R4 -J +L. +Lwork
+    render "work/$name.log" "$scenes/$name.pov" "work/$name.part.png" "+W$width" "+H$height" +A0.0 +AM1 +R4 -J \
+        +L. +Lwork
     mv "work/$name.part.png" "$name.png"
     echo "$POVRAY_PREFENV +I$scenes/$name.pov +O$figures/$name.png +W$width +H$height +A0.0 +AM1 +R4 -J" \
         "+L$figures +L$figures/work +L$scenes -D" >"$name.txt"
@@ -183,15 +184,16 @@ pixels=$(value work/fig6c.diff.json pixels)
     echo
     echo "Stanford bunny, $side x $side, $pixels pixels of the object, alpha $alpha, environment $(basename "$hdri");" \
         'MSE in linear radiance.'
-    echo "Relative RMSE: RMSE / mean of (b). Levels: mean |difference| in 256 levels of sRGB, clipped as a display does."
+    echo "Relative RMSE: RMSE / mean of (b). Levels: mean |difference| in 256 levels of sRGB, clipped as a display" \
+        'does.'
     echo "Seconds on $(nproc) processors: POV-Ray's \"Trace Time\" at one ray a pixel; bake as measured." \
-        "The bake's own estimate of its relative error is $error_estimate."
+        "The bake's own estimate of its relative error is $(printf %.2g "$error_estimate")."
     echo
     echo '| picture | MSE | relative RMSE | levels | trace, s | bake, s |'
     echo '|---|---|---|---|---|---|'
     echo "| $(what fig6b) | | | | $(cat work/fig6b.seconds) | |"
     for name in $pictures; do
-        printf '| %s | %s | %s %% | %s | %s | %s |\n' "$(what $name)" "$(value work/$name.diff.json mse)" \
+        printf '| %s | %.3g | %s %% | %s | %s | %s |\n' "$(what $name)" "$(value work/$name.diff.json mse)" \
             "$(awk -v r="$(value work/$name.diff.json relative_rmse)" 'BEGIN { printf "%.2f", 100 * r }')" \
             "$(levels $name)" "$(cat work/$name.seconds)" "$(baked $name)"
     done

@@ -1,0 +1,79 @@
+# small.sh - every scene, small: what is rendered for scenes/reference/ and compared with it; read after common.sh by
+# references.sh and tests/scenes.sh.
+#
+#   small_prepare      bakes and links into the working folder what the scenes ask for: seconds, not minutes, so the
+#                      maps are small
+#   small_scenes       the names, in the order in which they have to be rendered: the last ones show others
+#   small_render NAME  NAME.png in the working folder
+#   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
+
+small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f ten_lines cylinder spheres fig4 fig6
+    readme view'
+
+small_prepare()
+{
+    local courtyard=$PREFENV_DATA/hdri/courtyard.exr studio=$PREFENV_DATA/hdri/studio.exr alpha
+
+    for file in "$courtyard" "$studio"; do
+        [ -f "$file" ] || die "$file does not exist: run ./bootstrap, which fetches it"
+    done
+    ln -sf "$courtyard" courtyard.exr
+    ln -sf "$courtyard" environment.exr
+    ln -sf "$studio" studio.exr
+    make_mesh .
+    small_bake environment.exr maps.exr --size 100x50
+    small_bake environment.exr baseline.exr --size 100x50 --method baseline
+    small_bake courtyard.exr brushed.pe.exr --alpha 0.1,0.03 --size 100x50
+    small_bake studio.exr studio.pe.exr --size 64x32 --normals 12
+    for alpha in 0.02 0.05 0.10 0.20 0.40; do
+        small_bake courtyard.exr alpha-$alpha.pe.exr --alpha $alpha --size 64x32 --normals 12
+    done
+    cat >fig6_numbers.inc <<'END'
+#declare Reference_Samples = 1;
+#declare Mse_C = 3;
+#declare Mse_D = 4;
+#declare Mse_E = 5;
+#declare Mse_F = 6;
+#declare Time_B = "2 s";
+#declare Time_E = "7 s";
+END
+}
+
+small_bake() # ENVIRONMENT MAPS OPTION...
+{
+    "$PREFENV" bake "$1" -o "$2" --quiet "${@:3}" || die "$2 was not baked; see above"
+}
+
+small_render()
+{
+    local size='+W128 +H128 -A'
+
+    case $1 in
+        bunny) size='+W128 +H128 +A0.1 +AM2 +R2 -J' ;;
+        fig5a) size='+W160 +H80 -A' ;;
+        fig5b | fig5c) size='+W160 +H133 +A0.1 -J' ;;
+        fig6b) size="$size Declare=Samples=1024" ;;
+        ten_lines) size='+W160 +H120 -A' ;;
+        spheres) size='+W240 +H60 -A' ;;
+        fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        fig6) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        readme) size='+W164 +H144 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        view)
+            # shellcheck disable=SC2086 # the options are a list of words
+            render picture.log "$srcdir/scenes/fig6f.pov" picture.exr $size +L.
+            ;;
+    esac
+    # shellcheck disable=SC2086
+    render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+}
+
+# Other processors round otherwise in the last bits, and that is all that should differ.  The noise of a Monte Carlo
+# picture, though, hangs on the last bit of every normal.
+small_bound()
+{
+    case $1 in
+        fig6b) echo 0.02 ;;
+        fig6 | readme) echo 0.005 ;;
+        *) echo 0.002 ;;
+    esac
+}
