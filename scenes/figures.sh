@@ -88,7 +88,8 @@ exr()
     shift 4
     command="$POVRAY_PREFENV +I$scene +O$figures/$name.exr +FE +W$width +H$height $* +L$figures/work +L$scenes -D"
     if newer "$name.exr" "$scene" "$scenes"/{bunny_scene,ndf_plot}.inc "$POVRAY_PREFENV" \
-        work/{maps,baseline,environment}.exr work/bunny_mesh.inc && newer "$name.png" "$name.exr" "$scenes/view.pov" && same "$command" "$name.txt"; then
+        work/{maps,baseline,environment}.exr work/bunny_mesh.inc &&
+        newer "$name.png" "$name.exr" "$scenes/view.pov" && same "$command" "$name.txt"; then
         say "$name" "up to date, traced in $(cat "work/$name.seconds") s"
         return
     fi
