@@ -1,0 +1,194 @@
+/* bench.c - the library against its rivals, in one process: `bench ENV` prints one JSON object.  See bench/run.sh.
+ *
+ * A "pair" is a texel of a map and a texel of the environment, both in the hemisphere of the map's normal: of a map of
+ * w x h texels and an environment of W x H there are (w h / 2) (W H / 2), whether they are all looked at or not. */
+#include "naive.h"
+#include "prefenv.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define ALPHA 0.1
+#define NORMALS 42
+
+/* Seconds; for one thread its own time, which other work on the machine does not stretch. */
+static double now(int threads)
+{
+    struct timespec t;
+
+    clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void check(pe_status status, const pe_error *error)
+{
+    if (status != PE_OK) {
+        fprintf(stderr, "bench: %s\n", error->message);
+        exit(1);
+    }
+}
+
+/* The environment on a smaller grid: each texel the mean of 4 x 4 lookups. */
+static pe_env *shrink(const pe_env *env, int width, int height)
+{
+    float *rgb = malloc((size_t)width * (size_t)height * 3 * sizeof *rgb);
+    pe_env *small;
+    pe_error error;
+
+    if (rgb == NULL)
+        abort();
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double sum[3] = { 0, 0, 0 };
+
+            for (int k = 0; k < 16; k++) {
+                double direction[3], light[3];
+
+                pe_latlong_direction((x + (k % 4 + 0.5) / 4) / width, (y + (k / 4 + 0.5) / 4) / height, direction);
+                pe_env_lookup(env, direction, light);
+                for (int c = 0; c < 3; c++)
+                    sum[c] += light[c] / 16;
+            }
+            for (int c = 0; c < 3; c++)
+                rgb[3 * (y * width + x) + c] = (float)sum[c];
+        }
+    check(pe_env_create(width, height, rgb, &small, &error), &error);
+    free(rgb);
+    return small;
+}
+
+static pe_maps *bake(const pe_env *env, int width, int height, pe_accuracy accuracy, int threads, double *seconds)
+{
+    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA }, .normals = NORMALS, .width = width,
+                                .height = height, .accuracy = accuracy, .threads = threads };
+    pe_maps *maps;
+    pe_error error;
+    double start = now(threads);
+
+    check(pe_bake(env, &options, &maps, &error), &error);
+    *seconds = now(threads) - start;
+    return maps;
+}
+
+static double pairs(const pe_env *env, double map_texels)
+{
+    return map_texels / 2 * pe_env_width(env) * pe_env_height(env) / 2;
+}
+
+/* Every 2500th map texel or so of the first map, by the naive loop; the worst relative difference to the maps given. */
+static double naive(const pe_env *env, const pe_maps *maps, double *seconds, int *count)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    const float *image = pe_maps_image(maps, 0);
+    int texels = info->width * info->height, step = texels / 601 | 1, used = 0;
+    float(*o)[3] = malloc(sizeof *o * (size_t)(texels / step + 1)), n[3];
+    float(*rgb)[3] = malloc(sizeof *rgb * (size_t)(texels / step + 1)), worst = 0;
+    int *which = malloc(sizeof *which * (size_t)(texels / step + 1));
+    double normal[3], start;
+
+    if (o == NULL || rgb == NULL || which == NULL)
+        abort();
+    pe_maps_normal(maps, 0, normal);
+    for (int c = 0; c < 3; c++)
+        n[c] = (float)normal[c];
+    for (int t = 0; t < texels; t += step) {
+        double r[3], r_n;
+
+        pe_latlong_direction((t % info->width + 0.5) / info->width, (t / info->width + 0.5) / info->height, r);
+        r_n = r[0] * normal[0] + r[1] * normal[1] + r[2] * normal[2];
+        if (r_n < 0.15)
+            continue;
+        for (int c = 0; c < 3; c++)
+            o[used][c] = (float)(2 * r_n * normal[c] - r[c]);
+        which[used++] = t;
+    }
+    start = now(1);
+    naive_filter(env, ALPHA, n, (const float(*)[3])o, used, rgb);
+    *seconds = now(1) - start;
+    for (int k = 0; k < used; k++)
+        for (int c = 0; c < 3; c++)
+            worst = fmaxf(worst, fabsf(rgb[k][c] - image[3 * which[k] + c]) / image[3 * which[k] + c]);
+    *count = used;
+    free(o);
+    free(rgb);
+    free(which);
+    return (double)worst;
+}
+
+/* |a - b| / |b| in the L2 sense, over the texels with |n.r| > 0.15. */
+static double relative_l2(const pe_maps *a, const pe_maps *b)
+{
+    const pe_maps_info *info = pe_maps_get_info(a);
+    double difference = 0, reference = 0;
+
+    for (int k = 0; k < info->images; k++) {
+        const float *p = pe_maps_image(a, k), *q = pe_maps_image(b, k);
+        double n[3];
+
+        pe_maps_normal(a, k, n);
+        for (int t = 0; t < info->width * info->height; t++) {
+            double r[3];
+
+            pe_latlong_direction((t % info->width + 0.5) / info->width, (t / info->width + 0.5) / info->height, r);
+            if (fabs(r[0] * n[0] + r[1] * n[1] + r[2] * n[2]) < 0.15)
+                continue;
+            for (int c = 0; c < 3; c++) {
+                double d = (double)p[3 * t + c] - (double)q[3 * t + c];
+
+                difference += d * d;
+                reference += (double)q[3 * t + c] * (double)q[3 * t + c];
+            }
+        }
+    }
+    return sqrt(difference / reference);
+}
+
+int main(int argc, char **argv)
+{
+    pe_env *env, *small;
+    pe_maps *exact, *fast;
+    pe_error error;
+    double seconds, exact_seconds, fast_seconds, difference;
+    int count;
+
+    if (argc != 2) {
+        fprintf(stderr, "Usage: bench ENV\n");
+        return 1;
+    }
+    check(pe_env_read(argv[1], &env, &error), &error);
+    small = shrink(env, 400, 200);
+
+    printf("{\n");
+    exact = bake(small, 100, 50, PE_ACCURACY_EXACT, 1, &seconds);
+    printf("  \"exact_pairs_per_second_one_thread\": %.4g,\n", pairs(small, 100 * 50 * NORMALS) / seconds);
+    difference = naive(small, exact, &seconds, &count);
+    printf("  \"naive_pairs_per_second_one_thread\": %.4g,\n", pairs(small, 2 * count) / seconds);
+    printf("  \"naive_worst_relative_difference\": %.3g,\n", difference);
+    pe_maps_free(exact);
+    fflush(stdout);
+
+    exact = bake(small, 400, 200, PE_ACCURACY_EXACT, 0, &seconds);
+    printf("  \"exact_400x200_from_400x200_seconds\": %.4g,\n", seconds);
+    printf("  \"exact_pairs_per_second\": %.4g,\n", pairs(small, 400.0 * 200 * NORMALS) / seconds);
+    pe_maps_free(exact);
+    fflush(stdout);
+
+    fast = bake(env, 400, 200, PE_ACCURACY_FAST, 0, &seconds);
+    printf("  \"fast_400x200_from_%dx%d_seconds\": %.4g,\n", pe_env_width(env), pe_env_height(env), seconds);
+    pe_maps_free(fast);
+    fflush(stdout);
+
+    exact = bake(env, 200, 100, PE_ACCURACY_EXACT, 0, &exact_seconds);
+    fast = bake(env, 200, 100, PE_ACCURACY_FAST, 0, &fast_seconds);
+    printf("  \"exact_200x100_seconds\": %.4g,\n", exact_seconds);
+    printf("  \"fast_200x100_seconds\": %.4g,\n", fast_seconds);
+    printf("  \"fast_relative_l2\": %.4g,\n", relative_l2(fast, exact));
+    printf("  \"fast_own_estimate\": %.4g\n}\n", pe_maps_get_info(fast)->error_estimate);
+    pe_maps_free(exact);
+    pe_maps_free(fast);
+    pe_env_free(small);
+    pe_env_free(env);
+    return 0;
+}

@@ -1,0 +1,141 @@
+#!/bin/bash
+# bench/run.sh - `make bench`: ratios, each against a named rival in the same run, into bench.json of the build tree, and
+# as a table on the terminal.  About three minutes on two idle cores.
+#
+# Only the ratios mean anything on another machine, and not even they on a busy one.
+
+set -euo pipefail
+
+die()
+{
+    printf 'make bench: %s\n' "$*" >&2
+    exit 1
+}
+
+POVRAY_PREFENV=${POVRAY_PREFENV:-none}
+. "${srcdir:?call this through make}/scenes/common.sh"
+: "${BENCH:?call this through make}"
+
+hdri=$PREFENV_DATA/hdri/courtyard.exr
+lines=1000000
+exact_lines=200
+side=512
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM HUP
+cd "$work"
+
+value() # FILE KEY
+{
+    sed -n 's/^ *"'"$2"'": *\([^,]*\),\{0,1\}$/\1/p' "$1"
+}
+
+ratio() # A B
+{
+    awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g", a / b }'
+}
+
+results=()
+table=()
+
+# result NAME VALUE UNIT RIVAL ITS-VALUE RATIO: VALUE and ITS-VALUE in UNIT; RATIO is how many times better ours is
+result()
+{
+    results+=("{\"name\": \"$1\", \"value\": $2, \"unit\": \"$3\", \"rival\": \"$4\", \"rival_value\": $5, \"ratio\": $6}")
+    table+=("$(printf '%-46s %10.4g %-10s %-46s %10.4g %8.3g' "$1" "$2" "$3" "$4" "$5" "$6")")
+}
+
+# fact NAME VALUE UNIT: without a rival
+fact()
+{
+    results+=("{\"name\": \"$1\", \"value\": $2, \"unit\": \"$3\"}")
+    table+=("$(printf '%-46s %10.4g %-10s' "$1" "$2" "$3")")
+}
+
+# ---- the library ----
+
+echo 'the filter ...' >&2
+"$BENCH" "$hdri" >bench.json || die 'bench failed; see above'
+ours=$(value bench.json exact_pairs_per_second_one_thread)
+theirs=$(value bench.json naive_pairs_per_second_one_thread)
+result 'exact filter, one thread' "$ours" 'pairs/s' 'bench/naive.c, -O3' "$theirs" "$(ratio "$ours" "$theirs")"
+fact 'its worst relative difference to ours' "$(value bench.json naive_worst_relative_difference)" ''
+both=$(value bench.json exact_pairs_per_second)
+result 'exact filter, all threads' "$both" 'pairs/s' 'one thread' "$ours" "$(ratio "$both" "$ours")"
+fact 'exact bake, 42 x 400x200 from 400x200' "$(value bench.json exact_400x200_from_400x200_seconds)" s
+fact 'fast bake, 42 x 400x200 from 1024x512' "$(value bench.json fast_400x200_from_1024x512_seconds)" s
+ours=$(value bench.json fast_200x100_seconds)
+theirs=$(value bench.json exact_200x100_seconds)
+result 'fast bake, 42 x 200x100 from 1024x512' "$ours" s 'exact bake' "$theirs" "$(ratio "$theirs" "$ours")"
+fact 'its relative L2 error' "$(value bench.json fast_relative_l2)" ''
+fact 'its own estimate of that' "$(value bench.json fast_own_estimate)" ''
+
+# ---- the command ----
+
+echo 'the lookup ...' >&2
+"$PREFENV" bake "$hdri" -o maps.exr --quiet || die 'the bake failed; see above'
+awk -v count=$lines 'BEGIN {
+    srand(1)
+    for (i = 0; i < count; i++)
+        print rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5
+}' >lines.txt
+start=$(now)
+"$PREFENV" eval maps.exr <lines.txt >eval.txt || die 'prefenv eval failed; see above'
+eval_rate=$(ratio $lines "$(seconds_since "$start")")
+start=$(now)
+head -n $exact_lines lines.txt | "$PREFENV" exact "$hdri" --alpha 0.1 >exact.txt 2>exact.log ||
+    die "prefenv exact failed: $(cat exact.log)"
+exact_rate=$(ratio $exact_lines "$(seconds_since "$start")")
+result 'prefenv eval' "$eval_rate" 'lines/s' 'prefenv exact' "$exact_rate" "$(ratio "$eval_rate" "$exact_rate")"
+
+# ---- the renderer ----
+
+# traced RUNS NAME SCENE OPTION...: the median of RUNS trace times
+traced()
+{
+    local runs=$1 name=$2 scene=$3 run
+
+    shift 3
+    for ((run = 0; run < runs; run++)); do
+        render "$name.log" "$scene" "$name.exr" +W$side +H$side -A +L. "$@"
+        echo "$trace_seconds"
+    done | sort -g | sed -n $((runs / 2 + 1))p
+}
+
+if [ "$POVRAY_PREFENV" != none ]; then
+    echo 'the renderer ...' >&2
+    make_mesh .
+    ln -s "$hdri" environment.exr
+    "$PREFENV" bake "$hdri" -o baseline.exr --method baseline --quiet
+    scenes=$srcdir/scenes
+    none=$(traced 3 none "$srcdir/bench/none.pov")
+    linear=$(traced 3 linear "$scenes/fig6f.pov")
+    weighted=$(traced 3 weighted "$scenes/fig6e.pov")
+    mirror=$(traced 3 mirror "$srcdir/bench/mirror.pov")
+    trick=$(traced 1 trick "$srcdir/bench/trick.pov")
+    reference=$(traced 1 reference "$scenes/fig6b.pov" Declare=Samples=64)
+    this="bunny ${side}x$side, prefiltered, linear"
+    fact "bunny ${side}x$side, no reflection" "$none" s
+    result "bunny ${side}x$side, prefiltered, a = 50" "$weighted" s 'prefiltered, linear' "$linear" \
+        "$(ratio "$linear" "$weighted")"
+    result "$this" "$linear" s 'a plain mirror, traced' "$mirror" "$(ratio "$mirror" "$linear")"
+    result "$this" "$linear" s "the users' trick: 16 bumped mirrors" "$trick" "$(ratio "$trick" "$linear")"
+    result "$this" "$linear" s 'Monte Carlo, 64 samples' "$reference" "$(ratio "$reference" "$linear")"
+fi
+
+{
+    echo '{'
+    echo "  \"processors\": $(nproc),"
+    echo '  "results": ['
+    for ((i = 0; i < ${#results[@]}; i++)); do
+        [ $i = $((${#results[@]} - 1)) ] && comma='' || comma=,
+        echo "    ${results[i]}$comma"
+    done
+    echo '  ]'
+    echo '}'
+} >json.part
+mv json.part "$top_builddir/bench.json"
+
+printf '%-46s %10s %-10s %-46s %10s %8s\n' what ours unit rival its ratio
+printf '%s\n' "${table[@]}"
+echo "$top_builddir/bench.json"
