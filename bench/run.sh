@@ -1,6 +1,6 @@
 #!/bin/bash
-# bench/run.sh - `make bench`: ratios, each against a named rival in the same run, into bench.json of the build tree, and
-# as a table on the terminal.  About three minutes on two idle cores.
+# bench/run.sh - `make bench`: ratios, each against a named rival in the same run, into bench.json of the build tree,
+# and as a table on the terminal.  About three minutes on two idle cores.
 #
 # Only the ratios mean anything on another machine, and not even they on a busy one.
 
@@ -41,7 +41,8 @@ table=()
 # result NAME VALUE UNIT RIVAL ITS-VALUE RATIO: VALUE and ITS-VALUE in UNIT; RATIO is how many times better ours is
 result()
 {
-    results+=("{\"name\": \"$1\", \"value\": $2, \"unit\": \"$3\", \"rival\": \"$4\", \"rival_value\": $5, \"ratio\": $6}")
+    results+=("{\"name\": \"$1\", \"value\": $2, \"unit\": \"$3\", \"rival\": \"$4\", \"rival_value\": $5, $(
+        )\"ratio\": $6}")
     table+=("$(printf '%-46s %10.4g %-10s %-46s %10.4g %8.3g' "$1" "$2" "$3" "$4" "$5" "$6")")
 }
 
