@@ -44,9 +44,10 @@ static pe_env *shrink(const pe_env *env, int width, int height)
             double sum[3] = { 0, 0, 0 };
 
             for (int k = 0; k < 16; k++) {
+                int row = 4 * y + k / 4, column = 4 * x + k % 4;
                 double direction[3], light[3];
 
-                pe_latlong_direction((x + (k % 4 + 0.5) / 4) / width, (y + (k / 4 + 0.5) / 4) / height, direction);
+                pe_latlong_direction((column + 0.5) / (4 * width), (row + 0.5) / (4 * height), direction);
                 pe_env_lookup(env, direction, light);
                 for (int c = 0; c < 3; c++)
                     sum[c] += light[c] / 16;
@@ -61,8 +62,12 @@ static pe_env *shrink(const pe_env *env, int width, int height)
 
 static pe_maps *bake(const pe_env *env, int width, int height, pe_accuracy accuracy, int threads, double *seconds)
 {
-    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA }, .normals = NORMALS, .width = width,
-                                .height = height, .accuracy = accuracy, .threads = threads };
+    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA },
+                                .normals = NORMALS,
+                                .width = width,
+                                .height = height,
+                                .accuracy = accuracy,
+                                .threads = threads };
     pe_maps *maps;
     pe_error error;
     double start = now(threads);
@@ -77,7 +82,14 @@ static double pairs(const pe_env *env, double map_texels)
     return map_texels / 2 * pe_env_width(env) * pe_env_height(env) / 2;
 }
 
-/* Every 2500th map texel or so of the first map, by the naive loop; the worst relative difference to the maps given. */
+static void texel_direction(const pe_maps_info *info, int texel, double direction[3])
+{
+    int x = texel % info->width, y = texel / info->width;
+
+    pe_latlong_direction((x + 0.5) / info->width, (y + 0.5) / info->height, direction);
+}
+
+/* Some 300 texels of the first map, by the naive loop; the worst relative difference to the maps given. */
 static double naive(const pe_env *env, const pe_maps *maps, double *seconds, int *count)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
@@ -96,7 +108,7 @@ static double naive(const pe_env *env, const pe_maps *maps, double *seconds, int
     for (int t = 0; t < texels; t += step) {
         double r[3], r_n;
 
-        pe_latlong_direction((t % info->width + 0.5) / info->width, (t / info->width + 0.5) / info->height, r);
+        texel_direction(info, t, r);
         r_n = r[0] * normal[0] + r[1] * normal[1] + r[2] * normal[2];
         if (r_n < 0.15)
             continue;
@@ -131,7 +143,7 @@ static double relative_l2(const pe_maps *a, const pe_maps *b)
         for (int t = 0; t < info->width * info->height; t++) {
             double r[3];
 
-            pe_latlong_direction((t % info->width + 0.5) / info->width, (t / info->width + 0.5) / info->height, r);
+            texel_direction(info, t, r);
             if (fabs(r[0] * n[0] + r[1] * n[1] + r[2] * n[2]) < 0.15)
                 continue;
             for (int c = 0; c < 3; c++) {
