@@ -48,7 +48,7 @@ make_mesh "$cache"
 ln -s "$hdri" "$work/environment.$suffix"
 ln -s ../bunny.pe.exr "$work/maps.exr"
 cd "$work"
-render "$cache/bunny.log" "$srcdir/scenes/bunny.pov" bunny.png +W1024 +H1024 +A0.1 +AM2 +R2 "+L$cache" \
+render "$cache/bunny.log" "$srcdir/scenes/bunny.pov" bunny.png +W1024 +H1024 +A0.1 +AM2 +R2 -J "+L$cache" \
     Declare=Kind=$kind
 mv bunny.png "$figures/bunny.png"
 
