@@ -82,25 +82,25 @@ awk -v count=$lines 'BEGIN {
 }' >lines.txt
 start=$(now)
 "$PREFENV" eval maps.exr <lines.txt >eval.txt || die 'prefenv eval failed; see above'
-eval_rate=$(ratio $lines "$(seconds_since "$start")")
+eval_rate=$(ratio $lines "$(seconds_since "$start" 4)")
 start=$(now)
 head -n $exact_lines lines.txt | "$PREFENV" exact "$hdri" --alpha 0.1 >exact.txt 2>exact.log ||
     die "prefenv exact failed: $(cat exact.log)"
-exact_rate=$(ratio $exact_lines "$(seconds_since "$start")")
+exact_rate=$(ratio $exact_lines "$(seconds_since "$start" 4)")
 result 'prefenv eval' "$eval_rate" 'lines/s' 'prefenv exact' "$exact_rate" "$(ratio "$eval_rate" "$exact_rate")"
 
 # ---- the renderer ----
 
-# traced RUNS NAME SCENE OPTION...: the median of RUNS trace times
+# traced RUNS NAME SCENE OPTION...: the CPU seconds of tracing, the least of RUNS
 traced()
 {
     local runs=$1 name=$2 scene=$3 run
 
     shift 3
     for ((run = 0; run < runs; run++)); do
-        render "$name.log" "$scene" "$name.exr" +W$side +H$side -A +L. "$@"
-        echo "$trace_seconds"
-    done | sort -g | sed -n $((runs / 2 + 1))p
+        render "$name.log" "$scene" "picture-$name.exr" +W$side +H$side -A +L. "$@"
+        echo "$trace_cpu_seconds"
+    done | sort -g | sed -n 1p
 }
 
 if [ "$POVRAY_PREFENV" != none ]; then
@@ -109,19 +109,21 @@ if [ "$POVRAY_PREFENV" != none ]; then
     ln -s "$hdri" environment.exr
     "$PREFENV" bake "$hdri" -o baseline.exr --method baseline --quiet
     scenes=$srcdir/scenes
-    none=$(traced 3 none "$srcdir/bench/none.pov")
-    linear=$(traced 3 linear "$scenes/fig6f.pov")
-    weighted=$(traced 3 weighted "$scenes/fig6e.pov")
-    mirror=$(traced 3 mirror "$srcdir/bench/mirror.pov")
-    trick=$(traced 1 trick "$srcdir/bench/trick.pov")
-    reference=$(traced 1 reference "$scenes/fig6b.pov" Declare=Samples=64)
+    none=$(traced 5 none "$srcdir/bench/none.pov")
+    linear=$(traced 5 linear "$scenes/fig6f.pov")
+    baseline=$(traced 5 baseline "$scenes/fig6c.pov")
+    weighted=$(traced 5 weighted "$scenes/fig6e.pov")
+    mirror=$(traced 5 mirror "$srcdir/bench/mirror.pov")
+    trick=$(traced 2 trick "$srcdir/bench/trick.pov")
+    reference=$(traced 2 reference "$scenes/fig6b.pov" Declare=Samples=64)
     this="bunny ${side}x$side, prefiltered, linear"
-    fact "bunny ${side}x$side, no reflection" "$none" s
-    result "bunny ${side}x$side, prefiltered, a = 50" "$weighted" s 'prefiltered, linear' "$linear" \
+    fact "bunny ${side}x$side, no reflection" "$none" 'CPU s'
+    fact "bunny ${side}x$side, baseline" "$baseline" 'CPU s'
+    result "bunny ${side}x$side, prefiltered, a = 50" "$weighted" 'CPU s' 'prefiltered, linear' "$linear" \
         "$(ratio "$linear" "$weighted")"
-    result "$this" "$linear" s 'a plain mirror, traced' "$mirror" "$(ratio "$mirror" "$linear")"
-    result "$this" "$linear" s "the users' trick: 16 bumped mirrors" "$trick" "$(ratio "$trick" "$linear")"
-    result "$this" "$linear" s 'Monte Carlo, 64 samples' "$reference" "$(ratio "$reference" "$linear")"
+    result "$this" "$linear" 'CPU s' 'a plain mirror, traced' "$mirror" "$(ratio "$mirror" "$linear")"
+    result "$this" "$linear" 'CPU s' "the users' trick: 16 bumped mirrors" "$trick" "$(ratio "$trick" "$linear")"
+    result "$this" "$linear" 'CPU s' 'Monte Carlo, 64 samples' "$reference" "$(ratio "$reference" "$linear")"
 fi
 
 {

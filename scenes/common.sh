@@ -25,10 +25,10 @@ now()
     date +%s.%N
 }
 
-# seconds_since START: the time since, with one digit
+# seconds_since START [DIGITS]: the time since, with one digit after the point, or as many as asked for
 seconds_since()
 {
-    awk -v start="$1" -v end="$(now)" 'BEGIN { printf "%.1f", end - start }'
+    awk -v start="$1" -v end="$(now)" -v digits="${2:-1}" 'BEGIN { printf "%.*f", digits, end - start }'
 }
 
 # newer TARGET INPUT...: does TARGET exist, and is it no older than any INPUT?
@@ -55,7 +55,7 @@ make_mesh()
 }
 
 # The renderer, quietly and without the user's own povray.ini.  What it says goes into LOG, whose end is shown if it
-# fails.  Sets trace_seconds to POV-Ray's own "Trace Time".
+# fails.  Sets trace_seconds to POV-Ray's own "Trace Time", and trace_cpu_seconds to what its threads worked in it.
 #
 #   render LOG SCENE OUTPUT.png|OUTPUT.exr OPTION...
 render()
@@ -71,4 +71,5 @@ render()
         die "$(basename "$scene") could not be rendered; the whole log is $log"
     fi
     trace_seconds=$(sed -n 's/.*Trace Time:.*(\([0-9.]*\) seconds).*/\1/p' "$log")
+    trace_cpu_seconds=$(sed -n '/Trace Time:/,$s/.* with \([0-9.]*\) CPU-seconds total.*/\1/p' "$log")
 }
