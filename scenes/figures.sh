@@ -233,8 +233,6 @@ mse() # NAME
     echo "#declare Mse_D = $(mse fig6d);"
     echo "#declare Mse_E = $(mse fig6e);"
     echo "#declare Mse_F = $(mse fig6f);"
-    echo "#declare Time_B = \"traced in $(awk '{ printf "%.0f", $1 }' work/fig6b.seconds) s\";"
-    echo "#declare Time_E = \"traced in $(awk '{ printf "%.1f", $1 }' work/fig6e.seconds) s\";"
 } >work/numbers.part.inc
 if cmp -s work/numbers.part.inc work/fig6_numbers.inc; then rm work/numbers.part.inc; else
     mv work/numbers.part.inc work/fig6_numbers.inc

@@ -6,5 +6,5 @@
 #declare Enlarged = 0;
 #ifndef (Side) #declare Side = 360; #end
 #include "panels.inc"
-Panel(0, "fig6b.png", concat("Monte Carlo, ", str(Reference_Samples, 0, 0), " samples a pixel"), Time_B)
-Panel(1, "fig6e.png", "prefiltered maps, a = 50", Time_E)
+Panel(0, "fig6b.png", "Monte Carlo", concat(str(Reference_Samples, 0, 0), " samples at every pixel"))
+Panel(1, "fig6e.png", "prefiltered", "42 normals, a = 50")

@@ -34,8 +34,6 @@ small_prepare()
 #declare Mse_D = 4;
 #declare Mse_E = 5;
 #declare Mse_F = 6;
-#declare Time_B = "2 s";
-#declare Time_E = "7 s";
 END
 }
 
