@@ -99,6 +99,12 @@ for input in missing.exr folder empty.exr text.exr truncated.exr truncated.hdr t
 done
 is "$(ls | grep -v '^before$')" "$(grep -v '^before$' before)" "bad input leaves nothing behind"
 
+# shellcheck disable=SC2086
+said=$("$PREFENV" bake env.hdr -o out.exr --normals 43 --size 16x8 2>&1)
+is "$? $said" "2 prefenv: bake: normals 43 is not 10 f^2 + 2 for a whole f from 1 to 32; the nearest are 42 and 92" \
+    "a number of normals that there is not: the nearest are named"
+fails "and nothing is written" test -e out.exr
+
 # ---- outputs that cannot be written ----
 
 refused() # NAME PATTERN OUTPUT
@@ -150,6 +156,37 @@ for signal in INT TERM HUP; do
     is "$status" "$((128 + $(kill -l $signal)))" "SIG$signal ends the bake by its convention"
     is "$(ls | grep -v '^before$')" "$(grep -v '^before$' before)" "and leaves nothing behind"
 done
+# Of one colour, so that it is clustered and filtered in no time; what takes long is the estimate of the error, which
+# sums over all texels.  Half the time of a bake is in the middle of that.
+oiiotool --pattern constant:color=1,1,1 1600x800 3 -d half -o vast.exr || bail_out "oiiotool does not work"
+estimated="--fast --normals 12 --size 16x8 --alpha 0.3 --threads 1 --quiet"
+begun=$(date +%s%N)
+# shellcheck disable=SC2086
+ok "a bake whose time goes into the estimate" "$PREFENV" bake vast.exr -o stopped.exr $estimated
+half=$((($(date +%s%N) - begun) / 2000000))
+rm -f stopped.exr
+ls >before
+# shellcheck disable=SC2086
+timeout --preserve-status -s TERM "$(printf '%d.%03d' $((half / 1000)) $((half % 1000)))" \
+    "$PREFENV" bake vast.exr -o stopped.exr $estimated
+is "$? $(ls | grep -v '^before$')" "143 $(grep -v '^before$' before)" \
+    "a signal while the error is estimated ends the bake and leaves nothing behind"
+
+# A pipe that nobody writes to, or reads from.
+mkfifo silent
+for signal in INT TERM; do
+    # shellcheck disable=SC2086
+    timeout --preserve-status -k 9 -s $signal 0.5 "$PREFENV" bake silent -o stopped.exr $quick
+    is "$?" "$((128 + $(kill -l $signal)))" "SIG$signal while the pipe of ENV is opened"
+    # shellcheck disable=SC2086
+    timeout --preserve-status -k 9 -s $signal 0.5 "$PREFENV" bake silent -o stopped.exr $quick 9<>silent
+    is "$?" "$((128 + $(kill -l $signal)))" "SIG$signal while ENV is read from a pipe"
+    # shellcheck disable=SC2086
+    timeout --preserve-status -k 9 -s $signal 2 "$PREFENV" bake env.hdr -o silent $quick
+    is "$?" "$((128 + $(kill -l $signal)))" "SIG$signal while the pipe of MAPS is opened"
+done
+rm silent
+
 # shellcheck disable=SC2086
 timeout 2 sh -c 'trap "" HUP; "$0" "$@" & child=$!; sleep 0.5; kill -HUP $child; sleep 0.5; kill -0 $child; s=$?
                  kill -TERM $child; exit $s' "$PREFENV" bake large.hdr -o stopped.exr $slow 2>/dev/null

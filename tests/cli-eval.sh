@@ -167,4 +167,12 @@ start=$(date +%s%N)
 "$PREFENV" eval spot.pe.exr <half >/dev/null
 note "500,000 lines in $((($(date +%s%N) - start) / 1000000)) ms"
 
+# ---- interruption ----
+
+mkfifo silent
+for command in eval exact; do
+    timeout --preserve-status -k 9 -s INT 0.5 "$PREFENV" $command silent 9<>silent </dev/null
+    is "$?" 130 "$command: SIGINT while a pipe is read"
+done
+
 done_testing

@@ -41,9 +41,11 @@ for command in $commands; do
     like "$(out --help)" "^  $command " "--help lists $command"
     is "$(out help "$command")" "$(out "$command" --help)" "help $command is $command --help"
     like "$(out "$command" --help)" "^exit 0$" "$command --help exits with 0"
+    is "$(out "$command" -h)" "$(out "$command" --help)" "$command -h is $command --help"
     is "$("$PREFENV" "$command" --help | awk 'length > 79')" "" "$command --help fits 80 columns"
 done
 is "$(out help)" "$(out --help)" "help is --help"
+is "$(out -h)" "$(out --help)" "-h is --help"
 is "$("$PREFENV" --help | awk 'length > 79')" "" "--help fits 80 columns"
 
 # options_of COMMAND: the long options its help names, a line each.
@@ -64,6 +66,7 @@ for command in $commands; do
     for option in $(options_of "$command"); do
         like "$(cat "$page")" "\\*--$option\\*" "the man page of $command has --$option"
     done
+    like "$(cat "$page")" "^\\*-h\\*, \\*--help\\*$" "and -h"
 done
 
 # ---- wrong usage ----
@@ -96,7 +99,6 @@ done <<'TABLE'
 --direction 1,2|three numbers are wanted
 --direction 0,0,0|the zero vector has no direction
 --direction 1,inf,0|three numbers are wanted
---normals 43|--normals 43 is not 10f.2.2; the nearest counts are 42 and 92
 --normals 11|out of range: 12 to 10242
 --normals 10243|out of range: 12 to 10242
 --normals 99999999999999999999|out of range: 12 to 10242

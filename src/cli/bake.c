@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-#define HALF_MAX 65504.0f
 #define NORMALS_MIN 12    /* 10 f^2 + 2 for f = 1 */
 #define NORMALS_MAX 10242 /* and for f = 32 */
 
@@ -58,25 +57,6 @@ static const cli_option options[] = {
     { .name = NULL },
 };
 
-static int count_of(int frequency)
-{
-    return 10 * frequency * frequency + 2;
-}
-
-/* CLI_FAILURE, with its error printed, unless `normals`, which is in range, is 10 f^2 + 2. */
-static int check_normals(int normals)
-{
-    int f = 1;
-
-    while (count_of(f + 1) <= normals)
-        f++;
-    if (count_of(f) == normals)
-        return CLI_SUCCESS;
-    cli_error("bake", "--normals %d is not 10f^2+2; the nearest counts are %d and %d", normals, count_of(f),
-              count_of(f + 1));
-    return CLI_FAILURE;
-}
-
 static int check_settings(const bake_settings *settings)
 {
     const char *inputs[] = { settings->environment, NULL };
@@ -85,22 +65,13 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "--exact and --fast exclude each other; give one of them");
         return CLI_FAILURE;
     }
-    if (settings->method == PE_METHOD_REPRESENTATIVE && check_normals(settings->normals) != CLI_SUCCESS)
-        return CLI_FAILURE;
     return cli_check_output("bake", settings->output, inputs);
 }
 
-static int step_silently(double fraction, void *data)
-{
-    (void)fraction;
-    (void)data;
-    return interrupt_signal() != 0;
-}
-
-static int step_visibly(double fraction, void *data)
+static int draw_progress(double fraction, void *data)
 {
     progress_draw(data, fraction);
-    return interrupt_signal() != 0;
+    return 0;
 }
 
 static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_maps **maps, pe_error *error)
@@ -118,7 +89,7 @@ static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_
                     : settings->fast ? PE_ACCURACY_FAST
                                      : PE_ACCURACY_AUTO,
         .threads = settings->threads,
-        .progress = progress_is_visible() && !settings->quiet ? step_visibly : step_silently,
+        .progress = progress_is_visible() && !settings->quiet ? draw_progress : NULL,
         .progress_data = &bar,
     };
 
@@ -128,31 +99,18 @@ static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_
     return status;
 }
 
-static int fits_half(const pe_maps *maps)
-{
-    const pe_maps_info *info = pe_maps_get_info(maps);
-    size_t count = 3 * (size_t)info->width * (size_t)info->height;
-
-    for (int k = 0; k < info->images; k++) {
-        const float *image = pe_maps_image(maps, k);
-
-        for (size_t i = 0; i < count; i++)
-            if (image[i] > HALF_MAX)
-                return 0;
-    }
-    return 1;
-}
-
 /* Half floats unless floats are asked for or needed: a bake that took minutes is not thrown away for a bright sun. */
-static pe_pixel_type choose_pixels(const bake_settings *settings, const pe_maps *maps)
+static pe_status write_maps(const bake_settings *settings, const pe_maps *maps, pe_error *error)
 {
-    if (settings->floats)
-        return PE_PIXEL_FLOAT;
-    if (fits_half(maps))
-        return PE_PIXEL_HALF;
-    if (!settings->quiet)
+    pe_pixel_type pixels = settings->floats ? PE_PIXEL_FLOAT : PE_PIXEL_HALF;
+    pe_status status = pe_maps_write(maps, settings->output, pixels, error);
+
+    if (settings->floats || status != PE_ERROR_LIMIT)
+        return status;
+    status = pe_maps_write(maps, settings->output, PE_PIXEL_FLOAT, error);
+    if (status == PE_OK && !settings->quiet)
         cli_warning("bake", "brighter than half floats can hold (65504): written as with --float");
-    return PE_PIXEL_FLOAT;
+    return status;
 }
 
 static void print_summary(const bake_settings *settings, const pe_maps *maps, double seconds)
@@ -194,7 +152,9 @@ static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_err
     pe_env_free(env);
     if (status != PE_OK)
         return status;
-    status = pe_maps_write(*maps, settings->output, choose_pixels(settings, *maps), error);
+    interrupt_hold(settings->output);
+    status = write_maps(settings, *maps, error);
+    interrupt_release();
     if (status != PE_OK)
         pe_maps_free(*maps);
     return status;
@@ -212,15 +172,12 @@ static int bake_run(int argc, char **argv)
         return proceed;
     if (check_settings(&settings) != CLI_SUCCESS)
         return CLI_FAILURE;
-    interrupt_catch();
     if (bake_file(&settings, &maps, &error) != PE_OK) {
-        interrupt_die();
         cli_error("bake", "%s", error.message);
         return CLI_FAILURE;
     }
     print_summary(&settings, maps, clock_seconds() - begun);
     pe_maps_free(maps);
-    interrupt_die();
     return cli_flush("bake");
 }
 

@@ -81,5 +81,5 @@ void cli_help(const cli_command *command)
     puts("\nOptions [default]:");
     for (const cli_option *option = command->options; option->name; option++)
         print_option(option);
-    print_row("    --help", "print this help and stop");
+    print_row("-h, --help", "print this help and stop");
 }

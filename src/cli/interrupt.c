@@ -3,43 +3,31 @@
 
 #include <signal.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <sys/stat.h>
 
-static volatile sig_atomic_t noted; /* a signal handler can reach nothing else */
-
-static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
-
-static void note_signal(int number)
+static sigset_t waiting(void)
 {
-    if (!noted)
-        noted = number;
+    sigset_t set;
+
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGHUP);
+    return set;
 }
 
-void interrupt_catch(void)
+void interrupt_hold(const char *output)
 {
-    for (size_t i = 0; i < sizeof caught / sizeof caught[0]; i++) {
-        struct sigaction old, action = { .sa_handler = note_signal, .sa_flags = SA_RESTART };
+    sigset_t set = waiting();
+    struct stat target;
 
-        sigemptyset(&action.sa_mask);
-        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-            sigaction(caught[i], &action, NULL);
-    }
+    if (stat(output, &target) != 0 || S_ISREG(target.st_mode))
+        pthread_sigmask(SIG_BLOCK, &set, NULL);
 }
 
-int interrupt_signal(void)
+void interrupt_release(void)
 {
-    return noted;
-}
+    sigset_t set = waiting();
 
-void interrupt_die(void)
-{
-    int number = noted;
-
-    if (!number)
-        return;
-    fflush(stdout);
-    signal(number, SIG_DFL);
-    raise(number);
-    exit(128 + number);
+    pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }

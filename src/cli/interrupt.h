@@ -1,15 +1,12 @@
-/* interrupt.h - SIGINT, SIGTERM and SIGHUP are noted, so that work stops where nothing is left behind. */
+/* interrupt.h - SIGINT, SIGTERM and SIGHUP wait while a file is written, so that no part of one is left behind. */
 #ifndef CLI_INTERRUPT_H
 #define CLI_INTERRUPT_H
 
-/* From here on the signals are noted instead of ending the process; a signal that the caller ignores stays ignored. */
-void interrupt_catch(void);
+/* From here on the signals wait.  A device or a pipe is written straight, so there is nothing to guard, and its reader
+ * may take for ever: they do not wait for it.  To be called when all other threads have ended. */
+void interrupt_hold(const char *output);
 
-/* The signal that came first, or 0. */
-int interrupt_signal(void);
-
-/* Ends the process by the signal that came, as its convention is: the shell sees 128 + its number.  Returns if none
- * came. */
-void interrupt_die(void);
+/* The signals take effect as before; one that came meanwhile does so now. */
+void interrupt_release(void);
 
 #endif

@@ -87,7 +87,7 @@ int main(int argc, char **argv)
         cli_error(NULL, "no command given; see 'prefenv --help'");
         return CLI_FAILURE;
     }
-    if (strcmp(argv[1], "--help") == 0)
+    if (strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "--help") == 0)
         return print_overview();
     if (strcmp(argv[1], "--version") == 0) {
         puts("prefenv " PE_VERSION);

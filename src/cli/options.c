@@ -10,7 +10,7 @@
 
 #define OPTIONS_MAX 24
 #define LONG_VALUE 256 /* getopt_long's value of option i is LONG_VALUE + i; letters lie below */
-#define HELP_VALUE (LONG_VALUE + OPTIONS_MAX)
+#define HELP_VALUE 'h'
 
 const cli_choice cli_ndfs[] = { { "beckmann", PE_NDF_BECKMANN }, { NULL, 0 } };
 
@@ -20,13 +20,14 @@ typedef struct getopt_tables {
     size_t count;
 } getopt_tables;
 
-/* Fills tables of zeros.  "-h" stays free for a later option; --help is understood everywhere. */
+/* Fills tables of zeros.  -h and --help are understood everywhere. */
 static void fill_tables(const cli_command *command, getopt_tables *tables)
 {
     char *letter = tables->letters;
     size_t i = 0;
 
     *letter++ = ':'; /* tells a missing value from an unknown option */
+    *letter++ = HELP_VALUE;
     for (const cli_option *option = command->options; option->name && i < OPTIONS_MAX; option++, i++) {
         tables->longs[i].name = option->name;
         tables->longs[i].has_arg = option->type == CLI_SWITCH ? no_argument : required_argument;
