@@ -118,10 +118,10 @@ static void prepare_side(size_t which, void *data)
 
 static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *error)
 {
-    pe_status status = pe_lights_allocate(j->cloud->count, &j->sides[0].lights, error);
+    pe_status status = pe_lights_allocate(j->cloud, &j->sides[0].lights, error);
 
     if (status == PE_OK)
-        status = pe_lights_allocate(j->cloud->count, &j->sides[1].lights, error);
+        status = pe_lights_allocate(j->cloud, &j->sides[1].lights, error);
     for (j->image = 0; status == PE_OK && j->image < j->maps->info.images; j->image++) {
         pe_parallel_for(2, threads, prepare_side, j, NULL);
         status = pe_parallel_for((size_t)j->maps->info.height, threads, filter_row, j, report);
@@ -140,7 +140,7 @@ static void filter_baseline_row(size_t y, void *data)
     const job *j = data;
     pe_lights lights;
 
-    if (pe_lights_allocate(j->cloud->count, &lights, NULL) != PE_OK)
+    if (pe_lights_allocate(j->cloud, &lights, NULL) != PE_OK)
         return;
     for (int x = 0; x < j->maps->info.width; x++) {
         const float head_on[1][3] = { { 0, 0, 1 } };
@@ -179,20 +179,24 @@ static pe_status bake_baseline(job *j, int threads, pe_report *report, pe_error 
  * then sees the same number.  The constants keep the error below 1 % on photographs with suns: tests/test-fast.c. */
 #define CLUSTERS_PER_LOBE_AREA 164.0
 #define CLUSTERS_MIN 4096
-#define CLUSTERS_MAX 131072
 
-static size_t cluster_count(const pe_ndf *ndf)
+static double cluster_count(const pe_ndf *ndf)
 {
-    return (size_t)fmin(CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (ndf->alpha_x * ndf->alpha_y), CLUSTERS_MAX);
+    return CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (ndf->alpha_x * ndf->alpha_y);
 }
 
-/* Lights weaker than exp(-18) = 1.5e-8 of the mirror's are passed over by the fast mode. */
+/* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their half
+ * vectors raises that to (1 + 18 alpha^2)^2 times as much. */
 #define FAST_LIMIT 18
 
+/* With half as many clusters as texels there is nothing to gain from them. */
 static pe_status make_cloud(const pe_env *env, const pe_maps_info *info, pe_cloud *cloud, pe_error *error)
 {
-    return info->accuracy == PE_ACCURACY_EXACT ? pe_cloud_from_env(env, cloud, error)
-                                               : pe_cloud_from_clusters(env, cluster_count(&info->ndf), cloud, error);
+    double texels = (double)env->width * env->height, clusters = cluster_count(&info->ndf);
+
+    if (info->accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
+        return pe_cloud_from_env(env, cloud, error);
+    return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
 }
 
 static pe_status fill_maps(const pe_env *env, pe_maps *maps, const pe_bake_options *options, pe_error *error)

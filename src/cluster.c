@@ -13,13 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Half-open rectangle of texels. */
-typedef struct rect {
-    int left, top, right, bottom;
-} rect;
-
 typedef struct node {
-    rect area;
+    pe_rect area;
     double spread; /* sum_j w_j |omega_j - mean|^2 */
     int first;     /* children first and first + 1; 0: a leaf */
 } node;
@@ -53,7 +48,7 @@ static double mean_luminance(const pe_env *env)
     return sum / (4 * M_PI);
 }
 
-static void gather(const tree *t, const rect *area, moments *m)
+static void gather(const tree *t, const pe_rect *area, moments *m)
 {
     *m = (moments){ 0 };
     for (int y = area->top; y < area->bottom; y++) {
@@ -117,7 +112,7 @@ static int pop(tree *t)
 
 /* ---- the tree ---- */
 
-static void add_node(tree *t, rect area)
+static void add_node(tree *t, pe_rect area)
 {
     moments m;
 
@@ -129,7 +124,7 @@ static void add_node(tree *t, rect area)
 }
 
 /* Which side is longer on the sphere: a column's width shrinks with sin(theta). */
-static int is_wide(const tree *t, const rect *area)
+static int is_wide(const tree *t, const pe_rect *area)
 {
     double width =
         2 * M_PI * (area->right - area->left) / t->env->width * t->env->grid.sin_theta[(area->top + area->bottom) / 2];
@@ -142,7 +137,7 @@ static int is_wide(const tree *t, const rect *area)
 
 static void split(tree *t, int parent)
 {
-    rect first = t->nodes[parent].area, second = first;
+    pe_rect first = t->nodes[parent].area, second = first;
 
     if (is_wide(t, &first))
         first.right = second.left = (first.left + first.right) / 2;
@@ -156,9 +151,25 @@ static void split(tree *t, int parent)
 static void grow(tree *t, size_t leaves)
 {
     t->node_count = t->heap_count = 0;
-    add_node(t, (rect){ 0, 0, t->env->width, t->env->height });
+    add_node(t, (pe_rect){ 0, 0, t->env->width, t->env->height });
     for (size_t made = 1; made < leaves && t->heap_count; made++)
         split(t, pop(t));
+}
+
+/* The largest distance between the unit vectors of a texel of the area and of its light. */
+static float chord_of(const tree *t, const pe_rect *area, const double direction[3])
+{
+    double least = 1;
+
+    for (int y = area->top; y < area->bottom; y++)
+        for (int x = area->left; x < area->right; x++) {
+            double texel[3];
+
+            pe_grid_direction(&t->env->grid, x, y, texel);
+            least = fmin(least, pe_dot(texel, direction));
+        }
+    /* |a - b|^2 = 2 - 2 a.b, and a hair for rounding */
+    return (float)(sqrt(fmax(2 - 2 * least, 0)) + 1e-6);
 }
 
 /* Leaves in the order of the tree, so that neighbours in space are neighbours in the cloud. */
@@ -185,6 +196,8 @@ static void harvest(const tree *t, int index, pe_cloud *cloud)
     cloud->r[light] = (float)m.rgb[0];
     cloud->g[light] = (float)m.rgb[1];
     cloud->b[light] = (float)m.rgb[2];
+    cloud->chord[light] = chord_of(t, &at->area, direction);
+    cloud->areas[light] = at->area;
     cloud->count++;
 }
 
@@ -195,7 +208,7 @@ pe_status pe_cloud_from_clusters(const pe_env *env, size_t count, pe_cloud *clou
     size_t texels = (size_t)env->width * (size_t)env->height;
     size_t leaves = count < texels ? count : texels;
     tree t = { .env = env, .floor = FLOOR_SHARE * mean_luminance(env) };
-    pe_status status = pe_cloud_allocate(leaves, cloud, error);
+    pe_status status = pe_cloud_allocate_areas(env, leaves, cloud, error);
 
     if (status != PE_OK)
         return status;

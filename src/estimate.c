@@ -3,6 +3,7 @@
 
 #include "filter.h"
 #include "parallel.h"
+#include "sequence.h"
 #include "status.h"
 #include "vector.h"
 
@@ -21,27 +22,32 @@ typedef struct trial {
     int failed;
 } trial;
 
-/* Adds the squared difference of one texel, done again as `sums`. */
-static void compare(trial *t, const float *baked, const double sums[4])
+/* Adds the squared difference of one texel, looking along `world`, done again as `sums`. */
+static void compare(trial *t, const double world[3], const float *baked, const double sums[4])
 {
-    if (!(sums[0] > 0))
-        return;
+    double exact[3];
+
+    if (sums[0] > 0)
+        pe_scale(1 / sums[0], sums + 1, exact);
+    else
+        pe_env_lookup(t->cloud->env, world, exact);
     for (int c = 0; c < 3; c++) {
-        double exact = sums[c + 1] / sums[0], difference = (double)baked[c] - exact;
+        double difference = (double)baked[c] - exact[c];
 
         t->error2 += difference * difference;
-        t->norm2 += exact * exact;
+        t->norm2 += exact[c] * exact[c];
     }
 }
 
-/* Point k of a trial: places of the plastic-number lattice (Roberts 2018), evenly spread for any number of points. */
+/* The texel of a trial's point k: evenly spread for any number of points. */
 static void place_texel(const trial *t, int k, int *x, int *y)
 {
-    const double plastic = 1.32471795724474602596;
-    double step = t->index * POINTS_PER_FRAME + k + 0.5, u = step / plastic, v = step / (plastic * plastic);
+    static const double middle[2] = { 0.5, 0.5 };
+    double point[2];
 
-    *x = (int)((u - floor(u)) * t->maps->info.width);
-    *y = (int)((v - floor(v)) * t->maps->info.height);
+    pe_lattice_point(t->index * POINTS_PER_FRAME + k, middle, point);
+    *x = (int)(point[0] * t->maps->info.width);
+    *y = (int)(point[1] * t->maps->info.height);
 }
 
 static void try_texels(trial *t, int image, const pe_frame *frame, const pe_lights *lights)
@@ -60,7 +66,7 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
         o[0][1] = (float)-w[1];
         o[0][2] = (float)w[2];
         pe_filter_points(&t->maps->info.ndf, lights, (const float(*)[3])o, 1, sums);
-        compare(t, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
+        compare(t, world, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -88,7 +94,7 @@ static void try_baseline(trial *t, pe_lights *lights)
         pe_frame_make(world, t->maps->info.direction, &frame);
         pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights);
         pe_filter_points(&t->maps->info.ndf, lights, head_on, 1, sums);
-        compare(t, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
+        compare(t, world, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -97,7 +103,7 @@ static void run_trial(size_t index, void *data)
     trial *t = (trial *)data + index;
     pe_lights lights;
 
-    t->failed = pe_lights_allocate(t->cloud->count, &lights, NULL) != PE_OK;
+    t->failed = pe_lights_allocate(t->cloud, &lights, NULL) != PE_OK;
     if (t->failed)
         return;
     if (t->maps->geodesic)

@@ -119,7 +119,7 @@ static pe_status check_value(const walker *w, const char *attribute, const char 
     if (strcmp(type, "box2i") == 0 && size == 16 &&
         (strcmp(attribute, "dataWindow") == 0 || strcmp(attribute, "displayWindow") == 0))
         return check_window(w, attribute, value, p);
-    if (strcmp(type, "chlist") == 0)
+    if (strcmp(type, "chlist") == 0 && strcmp(attribute, "channels") == 0)
         return check_channels(w, value, size, p);
     if (strcmp(type, "tiledesc") == 0 && size == 9)
         p->tile_texels = (uint64_t)little_endian(value) * little_endian(value + 4);

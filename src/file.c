@@ -59,7 +59,12 @@ pe_status pe_file_read(const char *path, unsigned char **bytes, size_t *size, pe
 
     if (fd < 0)
         return file_error(error, path, "open");
-    if (fstat(fd, &about) == 0 && S_ISDIR(about.st_mode)) {
+    if (fstat(fd, &about) != 0) {
+        file_error(error, path, "read");
+        close(fd);
+        return PE_ERROR_FILE;
+    }
+    if (S_ISDIR(about.st_mode)) {
         close(fd);
         return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
     }
@@ -99,41 +104,47 @@ static pe_status write_device(const char *path, const void *bytes, size_t size, 
     return close(fd) < 0 ? file_error(error, path, "write") : PE_OK;
 }
 
-/* Opens a new file beside `path`, under a name nobody else has; the name is left in `temporary`. */
+/* Opens a new file in the folder of `path`, under a name nobody else has; the name is left in `temporary`. */
 static int open_beside(const char *path, char *temporary, size_t room)
 {
-    int fd = -1;
+    int folder = (int)(pe_base_name(path) - path), fd = -1;
 
     errno = EEXIST;
     for (int attempt = 0; attempt < 100 && fd < 0 && errno == EEXIST; attempt++) {
-        snprintf(temporary, room, "%s.%ld-%d.tmp", path, (long)getpid(), attempt);
+        snprintf(temporary, room, "%.*s.prefenv-%ld-%d.tmp", folder, path, (long)getpid(), attempt);
         fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
     return fd;
 }
 
-static pe_status write_and_rename(const char *path, char *temporary, size_t room, const void *bytes, size_t size,
-                                  pe_error *error)
+/* `replaced` describes the file that is there already, or is NULL: its mode is kept. */
+static pe_status write_and_rename(const char *path, const struct stat *replaced, char *temporary, size_t room,
+                                  const void *bytes, size_t size, pe_error *error)
 {
     int fd = open_beside(path, temporary, room);
+    int whole;
 
     if (fd < 0)
         return file_error(error, path, "create a file beside it");
-    if (write_all(fd, bytes, size) < 0 || fsync(fd) < 0) {
+    whole =
+        (!replaced || fchmod(fd, replaced->st_mode & 07777) == 0) && write_all(fd, bytes, size) == 0 && fsync(fd) == 0;
+    if (!whole)
         file_error(error, path, "write");
-        close(fd);
-        unlink(temporary);
-        return PE_ERROR_FILE;
-    }
-    if (close(fd) < 0 || rename(temporary, path) < 0) {
+    if (close(fd) < 0 && whole) {
         file_error(error, path, "write");
-        unlink(temporary);
-        return PE_ERROR_FILE;
+        whole = 0;
     }
-    return PE_OK;
+    if (whole && rename(temporary, path) < 0) {
+        file_error(error, path, "replace");
+        whole = 0;
+    }
+    if (!whole)
+        unlink(temporary);
+    return whole ? PE_OK : PE_ERROR_FILE;
 }
 
-static pe_status write_file(const char *path, const void *bytes, size_t size, pe_error *error)
+static pe_status write_file(const char *path, const struct stat *replaced, const void *bytes, size_t size,
+                            pe_error *error)
 {
     size_t room = strlen(path) + 64;
     char *temporary = malloc(room);
@@ -141,7 +152,7 @@ static pe_status write_file(const char *path, const void *bytes, size_t size, pe
 
     if (!temporary)
         return pe_fail_memory(error, "a file name");
-    status = write_and_rename(path, temporary, room, bytes, size, error);
+    status = write_and_rename(path, replaced, temporary, room, bytes, size, error);
     free(temporary);
     return status;
 }
@@ -152,8 +163,11 @@ pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_err
     pe_status status;
     char *target;
 
-    if (stat(path, &about) != 0)
-        return write_file(path, bytes, size, error);
+    if (stat(path, &about) != 0) {
+        if (lstat(path, &about) == 0)
+            return pe_fail(error, PE_ERROR_FILE, "%s: is a link to nothing; remove it or make what it points to", path);
+        return write_file(path, NULL, bytes, size, error);
+    }
     if (S_ISDIR(about.st_mode))
         return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
     if (!S_ISREG(about.st_mode))
@@ -162,7 +176,7 @@ pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_err
     target = realpath(path, NULL);
     if (!target)
         return file_error(error, path, "follow");
-    status = write_file(target, bytes, size, error);
+    status = write_file(target, &about, bytes, size, error);
     free(target);
     return status;
 }

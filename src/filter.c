@@ -35,9 +35,9 @@ typedef int ints __attribute__((vector_size(4 * LANES)));
 
 /* ---- clouds ---- */
 
-pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error)
+pe_status pe_cloud_allocate(const pe_env *env, size_t count, pe_cloud *cloud, pe_error *error)
 {
-    *cloud = (pe_cloud){ .count = count };
+    *cloud = (pe_cloud){ .env = env, .count = count };
     cloud->x = malloc(count * 3 * sizeof *cloud->x);
     cloud->weight_sr = malloc(count * 4 * sizeof *cloud->weight_sr);
     if (!cloud->x || !cloud->weight_sr) {
@@ -52,10 +52,27 @@ pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error)
     return PE_OK;
 }
 
+pe_status pe_cloud_allocate_areas(const pe_env *env, size_t count, pe_cloud *cloud, pe_error *error)
+{
+    pe_status status = pe_cloud_allocate(env, count, cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    cloud->chord = malloc(count * sizeof *cloud->chord);
+    cloud->areas = malloc(count * sizeof *cloud->areas);
+    if (!cloud->chord || !cloud->areas) {
+        pe_cloud_free(cloud);
+        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", count);
+    }
+    return PE_OK;
+}
+
 void pe_cloud_free(pe_cloud *cloud)
 {
     free(cloud->x);
     free(cloud->weight_sr);
+    free(cloud->chord);
+    free(cloud->areas);
     *cloud = (pe_cloud){ 0 };
 }
 
@@ -80,7 +97,7 @@ pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
     enum { TILE_WIDTH = 16, TILE_HEIGHT = PE_LIGHT_BLOCK / TILE_WIDTH };
     size_t light = 0;
-    pe_status status = pe_cloud_allocate((size_t)env->width * (size_t)env->height, cloud, error);
+    pe_status status = pe_cloud_allocate(env, (size_t)env->width * (size_t)env->height, cloud, error);
 
     if (status != PE_OK)
         return status;
@@ -96,16 +113,17 @@ pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error)
 
 enum { X, Y, Z, WEIGHT, RED, GREEN, BLUE, VALUES };
 
-pe_status pe_lights_allocate(size_t cloud_count, pe_lights *lights, pe_error *error)
+pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error *error)
 {
-    size_t blocks = (cloud_count + PE_LIGHT_BLOCK - 1) / PE_LIGHT_BLOCK;
+    size_t texels = (size_t)cloud->env->width * (size_t)cloud->env->height;
+    size_t blocks = (texels + PE_LIGHT_BLOCK - 1) / PE_LIGHT_BLOCK;
 
     *lights = (pe_lights){ 0 };
     lights->values = aligned_alloc(64, blocks * VALUES * PE_LIGHT_BLOCK * sizeof *lights->values);
     lights->cones = malloc(blocks * sizeof *lights->cones);
     if (!lights->values || !lights->cones) {
         pe_lights_free(lights);
-        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", cloud_count);
+        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", texels);
     }
     return PE_OK;
 }
@@ -152,34 +170,67 @@ static void set_cone(const pe_lights *lights, size_t block, size_t used, double 
     cone->cos_reach = reach < M_PI ? (float)cos(reach) - 1e-5f : -2;
 }
 
+/* Lights being filled: `used` of them in the block after the last whole one. */
+typedef struct filling {
+    const pe_frame *frame;
+    double lobe_reach;
+    pe_lights *lights;
+    size_t used;
+} filling;
+
+/* One light, if it is above the horizon; color is radiance times solid angle. */
+static void add_light(filling *f, const double world[3], float weight_sr, const float color[3])
+{
+    double local[3];
+    float *values;
+
+    local[2] = pe_dot(f->frame->n, world);
+    if (!(local[2] > PE_HORIZON))
+        return;
+    pe_frame_coordinates(f->frame, world, local);
+    values = block_values(f->lights, f->lights->blocks, X) + f->used;
+    for (int c = 0; c < 3; c++) {
+        values[(X + c) * PE_LIGHT_BLOCK] = (float)local[c];
+        values[(RED + c) * PE_LIGHT_BLOCK] = color[c];
+    }
+    values[WEIGHT * PE_LIGHT_BLOCK] = weight_sr;
+    if (++f->used == PE_LIGHT_BLOCK) {
+        set_cone(f->lights, f->lights->blocks++, f->used, f->lobe_reach);
+        f->used = 0;
+    }
+}
+
+static void add_texels(filling *f, const pe_env *env, const pe_rect *area)
+{
+    for (int y = area->top; y < area->bottom; y++)
+        for (int x = area->left; x < area->right; x++) {
+            const float *texel = env->rgb + 3 * ((size_t)y * (size_t)env->width + (size_t)x);
+            float weight = (float)env->grid.solid_angle_sr[y];
+            const float color[3] = { weight * texel[0], weight * texel[1], weight * texel[2] };
+            double world[3];
+
+            pe_grid_direction(&env->grid, x, y, world);
+            add_light(f, world, weight, color);
+        }
+}
+
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights)
 {
-    size_t used = 0;
+    filling f = { frame, lobe_reach, lights, 0 };
 
     lights->blocks = 0;
     for (size_t k = 0; k < cloud->count; k++) {
-        double world[3] = { cloud->x[k], cloud->y[k], cloud->z[k] }, local[3];
-        float *values;
+        const double world[3] = { cloud->x[k], cloud->y[k], cloud->z[k] };
+        const float color[3] = { cloud->r[k], cloud->g[k], cloud->b[k] };
 
-        local[2] = pe_dot(frame->n, world);
-        if (!(local[2] > 0))
-            continue;
-        pe_frame_coordinates(frame, world, local);
-        values = block_values(lights, lights->blocks, X) + used;
-        for (int c = 0; c < 3; c++)
-            values[c * PE_LIGHT_BLOCK] = (float)local[c];
-        values[WEIGHT * PE_LIGHT_BLOCK] = cloud->weight_sr[k];
-        values[RED * PE_LIGHT_BLOCK] = cloud->r[k];
-        values[GREEN * PE_LIGHT_BLOCK] = cloud->g[k];
-        values[BLUE * PE_LIGHT_BLOCK] = cloud->b[k];
-        if (++used == PE_LIGHT_BLOCK) {
-            set_cone(lights, lights->blocks++, used, lobe_reach);
-            used = 0;
-        }
+        if (cloud->chord && fabs(pe_dot(frame->n, world)) <= (double)cloud->chord[k])
+            add_texels(&f, cloud->env, &cloud->areas[k]);
+        else
+            add_light(&f, world, cloud->weight_sr[k], color);
     }
-    if (used) {
-        pad_block(lights, lights->blocks, used);
-        set_cone(lights, lights->blocks++, used, lobe_reach);
+    if (f.used) {
+        pad_block(lights, lights->blocks, f.used);
+        set_cone(lights, lights->blocks++, f.used, lobe_reach);
     }
 }
 

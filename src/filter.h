@@ -6,18 +6,34 @@
 #include "prefenv.h"
 #include "vector.h"
 
-/* exp(-x) with x beyond this counts as 0, in production and in truth alike.  Single precision would turn denormal, and
- * a lobe of which nothing is left lies between the texels: it is a mirror, see pe_bake and pe_exact. */
+/* exp(-x) with x beyond this counts as 0, in production and in truth alike: single precision would turn denormal.  Where
+ * no texel at all has weight, the lobe is far narrower than they are, and pe_bake and pe_exact show a mirror; a lobe that
+ * is not quite so narrow shows the texel nearest to its middle. */
 #define PE_LOBE_CUTOFF 55.0
 
-/* Lights of the whole sphere: unit directions in the world, solid angle, and radiance times solid angle. */
+/* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only rounding:
+ * texels that lie on the horizon itself, on neither side. */
+#define PE_HORIZON 1e-9
+
+/* Half-open rectangle of texels. */
+typedef struct pe_rect {
+    int left, top, right, bottom;
+} pe_rect;
+
+/* Lights of the whole sphere: unit directions in the world, solid angle, and radiance times solid angle.  A light may
+ * stand for several texels of env, none farther from its direction than chord (of unit vectors). */
 typedef struct pe_cloud {
+    const pe_env *env;
     size_t count;
     double *x, *y, *z;
     float *weight_sr, *r, *g, *b;
+    float *chord;   /* NULL where each light is one texel */
+    pe_rect *areas; /* likewise */
 } pe_cloud;
 
-pe_status pe_cloud_allocate(size_t count, pe_cloud *cloud, pe_error *error);
+/* Room for `count` lights of one texel each, or of several. */
+pe_status pe_cloud_allocate(const pe_env *env, size_t count, pe_cloud *cloud, pe_error *error);
+pe_status pe_cloud_allocate_areas(const pe_env *env, size_t count, pe_cloud *cloud, pe_error *error);
 void pe_cloud_free(pe_cloud *cloud);
 
 /* One light a texel, neighbours close to each other. */
@@ -38,11 +54,12 @@ typedef struct pe_lights {
     pe_light_block *cones;
 } pe_lights;
 
-/* Room for as many lights as a cloud may put into one hemisphere: all of them. */
-pe_status pe_lights_allocate(size_t cloud_count, pe_lights *lights, pe_error *error);
+/* Room for as many lights as a cloud may put into one hemisphere: a light is a texel at least. */
+pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error *error);
 void pe_lights_free(pe_lights *lights);
 
-/* Fills lights with the hemisphere of the frame's normal.  lobe_reach: an angle from the mirror direction beyond which
+/* Fills lights with the hemisphere of the frame's normal.  A light whose texels lie on both sides of the horizon is
+ * taken apart, so that nothing from behind the surface counts.  lobe_reach: an angle from the mirror direction beyond which
  * a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 

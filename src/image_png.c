@@ -152,8 +152,10 @@ static void on_write(png_structp png, png_bytep bytes, size_t size)
         size_t capacity = 2 * (s->size + size);
         unsigned char *larger = realloc(s->written, capacity);
 
-        if (!larger)
-            png_error(png, "out of memory");
+        if (!larger) {
+            s->status = pe_fail_memory(s->error, "a PNG");
+            longjmp(png_jmpbuf(png), 1);
+        }
         s->written = larger;
         s->capacity = capacity;
     }

@@ -39,7 +39,7 @@ static pe_status check_info(pe_maps_info *info, pe_error *error)
     for (int c = 0; c < 3; c++)
         if (!isfinite(info->direction[c]))
             return pe_fail(error, PE_ERROR_ARGUMENT, "direction is not finite");
-    if (!(pe_dot(info->direction, info->direction) > 0) || !isfinite(pe_dot(info->direction, info->direction)))
+    if (info->direction[0] == 0 && info->direction[1] == 0 && info->direction[2] == 0)
         return pe_fail(error, PE_ERROR_ARGUMENT, "direction has no length");
     if (info->width < 2 || info->height < 2 || info->width > PE_MAPS_SIDE_MAX || info->height > PE_MAPS_SIDE_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "size %d x %d is out of range; each side lies between 2 and %d",
@@ -52,8 +52,9 @@ static pe_status check_info(pe_maps_info *info, pe_error *error)
     info->frequency = pe_geodesic_frequency(info->normals);
     info->images = info->method == PE_METHOD_REPRESENTATIVE ? info->normals / 2 : 1;
     if ((size_t)info->width * (size_t)info->height > PE_MAPS_TEXELS_MAX / (size_t)info->images)
-        return pe_fail(error, PE_ERROR_LIMIT, "%d maps of %d x %d are more than %zu texels; make them smaller or fewer",
-                       info->images, info->width, info->height, PE_MAPS_TEXELS_MAX);
+        return pe_fail(error, PE_ERROR_LIMIT,
+                       "%d maps of %d x %d are more than can be held; make them fewer, or smaller than %zu texels each",
+                       info->images, info->width, info->height, PE_MAPS_TEXELS_MAX / (size_t)info->images);
     return PE_OK;
 }
 

@@ -75,5 +75,9 @@ pe_status pe_parallel_for(size_t count, int threads, pe_task *task, void *data, 
     work_and_report(&l, report);
     while (started > 0)
         pthread_join(workers[--started], NULL);
+    /* Others may have had the last turns, or the stop been asked for during them. */
+    if (report && report->function && !atomic_load(&l.cancelled) &&
+        report->function((report->done + (double)count) / report->total, report->data))
+        atomic_store(&l.cancelled, 1);
     return atomic_load(&l.cancelled) ? PE_ERROR_CANCELLED : PE_OK;
 }

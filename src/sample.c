@@ -169,8 +169,8 @@ void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double n[
     double unit_n[3], unit_o[3], r[3];
     ray at;
 
-    pe_normalize(n, unit_n);
-    pe_normalize(o, unit_o);
+    pe_normalize_any(n, unit_n);
+    pe_normalize_any(o, unit_o);
     if (pe_dot(unit_n, unit_o) < 0)
         pe_scale(-1, unit_n, unit_n);
     pe_reflect(unit_o, unit_n, r);

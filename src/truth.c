@@ -2,6 +2,7 @@
 #include "env.h"
 #include "filter.h"
 #include "prefenv.h"
+#include "sequence.h"
 #include "vector.h"
 
 #include <stdint.h>
@@ -19,15 +20,15 @@ static void make_view(const double direction[3], const double n[3], const double
 {
     double unit_n[3], unit_o[3];
 
-    pe_normalize(n, unit_n);
-    pe_normalize(o, unit_o);
+    pe_normalize_any(n, unit_n);
+    pe_normalize_any(o, unit_o);
     if (pe_dot(unit_n, unit_o) < 0)
         pe_scale(-1, unit_n, unit_n);
     pe_frame_make(unit_n, pe_dot(direction, direction) > 0 ? direction : plus_y, &v->frame);
     pe_frame_coordinates(&v->frame, unit_o, v->o);
 }
 
-/* The lobe's limit as it narrows below a texel: what a mirror shows. */
+/* What a mirror shows: where no texel has weight, the lobe is far narrower than they are. */
 static void mirror(const pe_env *env, const view *v, double rgb[3])
 {
     double r[3] = { -v->o[0], -v->o[1], v->o[2] }, world[3];
@@ -58,7 +59,7 @@ static void add_row(const pe_env *env, const pe_ndf *ndf, const view *v, int y, 
 
         pe_grid_direction(&env->grid, x, y, world);
         w[2] = pe_dot(v->frame.n, world);
-        if (!(w[2] > 0))
+        if (!(w[2] > PE_HORIZON))
             continue;
         pe_frame_coordinates(&v->frame, world, w);
         weight = lobe_weight(ndf, v->o, w) * env->grid.solid_angle_sr[y];
@@ -139,21 +140,20 @@ static void add_sample(const pe_env *env, const view *v, const double h[3], doub
         sums[c + 1] += weight * (double)texel[c];
 }
 
-/* Points of the plastic-number lattice (Roberts 2018, "R2"), shifted by the view's offsets: evenly spread in a pixel,
- * unrelated between pixels. */
+/* Lattice points shifted by the view's offsets: evenly spread in a pixel, unrelated between pixels. */
 void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction[3], int samples, const double n[3],
                     const double o[3], double rgb[3])
 {
-    const double plastic = 1.32471795724474602596;
     double sums[4] = { 0 }, offsets[2];
     view v;
 
     make_view(direction, n, o, &v);
     view_offsets(n, o, offsets);
     for (int k = 0; k < samples; k++) {
-        double u1 = offsets[0] + k / plastic, u2 = offsets[1] + k / (plastic * plastic), h[3];
+        double u[2], h[3];
 
-        pe_ndf_sample(ndf, u1 - floor(u1), u2 - floor(u2), h);
+        pe_lattice_point(k, offsets, u);
+        pe_ndf_sample(ndf, u[0], u[1], h);
         add_sample(env, &v, h, sums);
     }
     if (sums[0] > 0)

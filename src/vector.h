@@ -27,6 +27,15 @@ static inline void pe_normalize(const double a[3], double out[3])
     pe_scale(1 / sqrt(pe_dot(a, a)), a, out);
 }
 
+/* The same for any length but zero, though its square be out of range. */
+static inline void pe_normalize_any(const double a[3], double out[3])
+{
+    double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    double tame[3] = { a[0] / largest, a[1] / largest, a[2] / largest };
+
+    pe_normalize(tame, out);
+}
+
 /* r = 2 (o.n) n - o: the mirror direction of o about the unit normal n, and the other way round. */
 static inline void pe_reflect(const double o[3], const double n[3], double r[3])
 {
@@ -61,7 +70,7 @@ static inline void pe_frame_make(const double n[3], const double d[3], pe_frame 
     double unit[3], t[3];
     double along;
 
-    pe_normalize(d, unit);
+    pe_normalize_any(d, unit);
     along = pe_dot(unit, n);
     for (int c = 0; c < 3; c++)
         t[c] = unit[c] - along * n[c];

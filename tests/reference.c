@@ -58,7 +58,7 @@ void reference_reflection(const float *rgb, int width, int height, double alpha_
             double w[3], h[3], theta, weight;
 
             reference_direction(width, height, x, y, w, &theta);
-            if (dot(w, n) <= 0)
+            if (dot(w, n) <= REFERENCE_HORIZON)
                 continue;
             for (int c = 0; c < 3; c++)
                 h[c] = o[c] + w[c];

@@ -11,6 +11,9 @@ void reference_direction(int width, int height, int x, int y, double direction[3
 double reference_beckmann(double alpha_x, double alpha_y, const double h[3], const double t[3], const double b[3],
                           const double n[3]);
 
+/* Texels this close to the horizon are on neither side of it: their cosine is rounding. */
+#define REFERENCE_HORIZON 1e-9
+
 /* The reflection at a surface of unit normal n and brush direction d towards the unit vector o: [Motegi Eq. 5] over the
  * texels in the hemisphere of n. */
 void reference_reflection(const float *rgb, int width, int height, double alpha_x, double alpha_y, const double d[3],

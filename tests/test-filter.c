@@ -122,10 +122,93 @@ static void test_exact(const environment *e, double alpha_x, double alpha_y, con
     pe_env_free(env);
 }
 
+/* The rounding of h = o + w in single precision is a part of 1e-7 of the lobe's width: its effect grows as 1 / alpha. */
+static void test_narrow(double alpha)
+{
+    environment e = { "noise", 128, 64, reference_noise(128, 64, 8) };
+    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, alpha, alpha },
+                                .normals = 12,
+                                .width = 37,
+                                .height = 18,
+                                .accuracy = PE_ACCURACY_EXACT };
+    pe_env *env = make(&e);
+    pe_maps *maps;
+    double rms = 0, norm2 = 0;
+    const pe_maps_info *info;
+
+    need(pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
+    info = pe_maps_get_info(maps);
+    for (int texel = 0; texel < 37 * 18; texel++) {
+        double n[3], w[3], o[3], theta, exact[3];
+
+        reference_direction(37, 18, texel % 37, texel / 37, w, &theta);
+        pe_maps_normal(maps, 0, n);
+        pe_scale(pe_dot(w, n) > 0 ? 1 : -1, n, n);
+        pe_reflect(w, n, o);
+        pe_exact(env, &info->ndf, plus_y, n, o, exact);
+        for (int c = 0; c < 3; c++) {
+            rms += pow((double)pe_maps_image(maps, 0)[3 * texel + c] - exact[c], 2);
+            norm2 += exact[c] * exact[c];
+        }
+    }
+    ok(sqrt(rms / norm2) < 1e-6 / alpha, "alpha %g: rms %.1e", alpha, sqrt(rms / norm2));
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(e.rgb);
+}
+
+/* Odd heights and widths of 4 k + 2 put texels on the equators of normals along the axes, in environment and maps: they must
+ * be like their neighbours and not a mirror's. */
+static void test_equator(int width, int height)
+{
+    float *rgb = reference_constant(width, height, 0);
+    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, 0.2, 0.2 }, .width = width, .height = height };
+    pe_env *env;
+    pe_maps *maps;
+    double worst = 0;
+    int on_equators = 0;
+
+    for (int k = 0; k < 3 * width * height; k++) /* a checkerboard that a mirror shows and the lobe does not */
+        rgb[k] = (k / 3 % width + k / 3 / width) % 2 ? 2 : 0;
+    need(pe_env_create(width, height, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK,
+         "bake");
+    for (int k = 0; k < 21 * width * height; k++) {
+        double n[3], w[3], theta;
+
+        reference_direction(width, height, k % (width * height) % width, k % (width * height) / width, w, &theta);
+        pe_maps_normal(maps, k / (width * height), n);
+        if (fabs(pe_dot(n, w)) > 1e-9)
+            continue;
+        on_equators++;
+        worst = fmax(worst, fabs((double)pe_maps_image(maps, k / (width * height))[3 * (k % (width * height))] - 1));
+    }
+    ok(on_equators > 0 && worst < 0.7, "%d x %d: %d texels on equators, none a mirror's (%.2g)", width, height,
+       on_equators, worst);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
+/* Light that differs on all sides, so that a wrong weight of a sample moves the mean. */
+static float *make_gradient(int width, int height)
+{
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double w[3], theta;
+
+            reference_direction(width, height, x, y, w, &theta);
+            for (int c = 0; c < 3; c++)
+                rgb[3 * (y * width + x) + c] = (float)pow(1 + w[c], 2);
+        }
+    return rgb;
+}
+
 /* Monte Carlo's mean is Eq. 4: many views, each answered by many samples, a Z-test on the mean difference of each. */
 static void test_monte_carlo(double alpha_x, double alpha_y)
 {
-    environment e = { "noise", 256, 128, reference_noise(256, 128, 3) };
+    environment e = { "gradient", 256, 128, make_gradient(256, 128) };
     pe_env *env = make(&e);
     pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
     double sum = 0, sum2 = 0, count = 0;
@@ -148,8 +231,31 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
     }
     ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "alpha %g, %g: Monte Carlo's mean, z = %.2f", alpha_x,
        alpha_y, sum / count / sqrt(sum2 / count / count));
-    ok(sqrt(sum2 / count) < 0.01, "alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", alpha_x, alpha_y,
+    ok(sqrt(sum2 / count) < 0.003, "alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", alpha_x, alpha_y,
        sqrt(sum2 / count));
+    pe_env_free(env);
+    free(e.rgb);
+}
+
+/* Errors of neighbouring views are unrelated: with few samples they look like grain, not like stripes. */
+static void test_decorrelated(void)
+{
+    environment e = { "gradient", 64, 32, make_gradient(64, 32) };
+    pe_env *env = make(&e);
+    pe_ndf ndf = { PE_NDF_BECKMANN, 0.5, 0.5 };
+    double before = 0, product = 0, square = 0;
+
+    for (int k = 0; k < 4000; k++) {
+        double n[3] = { sin(1e-4 * k), cos(1e-4 * k), 0 }, o[3] = { 0.3, 0.8, 0.1 }, got[3], exact[3], difference;
+
+        pe_monte_carlo(env, &ndf, plus_y, 4, n, o, got);
+        pe_exact(env, &ndf, plus_y, n, o, exact);
+        difference = got[0] - exact[0];
+        product += difference * before;
+        square += difference * difference;
+        before = difference;
+    }
+    ok(fabs(product / square) < 0.1, "errors of neighbouring views correlate by %.3f", product / square);
     pe_env_free(env);
     free(e.rgb);
 }
@@ -180,6 +286,11 @@ int main(void)
     test_monte_carlo(0.1, 0.1);
     test_monte_carlo(0.1, 0.03);
     test_monte_carlo(0.6, 0.6);
+    test_decorrelated();
+    test_narrow(0.02);
+    test_narrow(0.005);
+    test_equator(40, 21);
+    test_equator(42, 20);
     for (int k = 0; k < (int)(sizeof all / sizeof *all); k++)
         free(all[k].rgb);
     return done_testing();

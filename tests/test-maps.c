@@ -6,8 +6,10 @@
 
 #include <dirent.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/prefenv-test-maps-XXXXXX";
@@ -181,6 +183,60 @@ static void test_wrong_files(void)
        "%s", error.message);
 }
 
+/* A texel that is not a number must be found on load: nothing checks it later. */
+static void test_nan(void)
+{
+    static unsigned char bytes[1 << 20];
+    static const float mark = 1234.5f, nan = NAN;
+    float *rgb = reference_constant(16, 8, mark);
+    pe_bake_options options = small;
+    pe_env *env;
+    pe_maps *maps = NULL;
+    pe_error error = { PE_OK, "" };
+    size_t size;
+    int marks = 0;
+
+    options.width = options.height = 2; /* too small to be compressed, so that texels are found in the file */
+    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
+    for (int k = 0; k < 6 * 21; k++)
+        ((float *)(uintptr_t)pe_maps_image(maps, 0))[k * 2] = 0.001f * (float)k; /* noise keeps ZIP from gaining */
+    need(pe_maps_write(maps, in_folder("c.exr"), PE_PIXEL_FLOAT, NULL) == PE_OK, "write");
+    pe_maps_free(maps);
+    maps = NULL;
+    size = read_bytes(in_folder("c.exr"), bytes, sizeof bytes);
+    for (size_t k = 0; k + 4 <= size && !marks; k++)
+        if (memcmp(bytes + k, &mark, 4) == 0) {
+            memcpy(bytes + k, &nan, 4);
+            marks++;
+        }
+    need(marks == 1, "no texel found in the file");
+    ok(pe_maps_read_memory(bytes, size, "nan.exr", &maps, &error) == PE_ERROR_FORMAT && strstr(error.message, "finite"),
+       "%s", error.message);
+    pe_env_free(env);
+    free(rgb);
+}
+
+static void test_modes_and_links(void)
+{
+    pe_env *env = noise(16, 8);
+    pe_bake_options options = small;
+    pe_maps *maps;
+    pe_error error = { PE_OK, "" };
+    struct stat about;
+
+    need(pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
+    need(pe_maps_write(maps, in_folder("c.exr"), PE_PIXEL_HALF, NULL) == PE_OK, "write");
+    need(chmod(in_folder("c.exr"), 0600) == 0 && symlink("c.exr", in_folder("link.exr")) == 0, "chmod and link");
+    need(pe_maps_write(maps, in_folder("link.exr"), PE_PIXEL_HALF, NULL) == PE_OK, "write through a link");
+    ok(stat(in_folder("c.exr"), &about) == 0 && (about.st_mode & 07777) == 0600, "a file replaced keeps its mode");
+    ok(lstat(in_folder("link.exr"), &about) == 0 && S_ISLNK(about.st_mode), "a link stays a link");
+    unlink(in_folder("c.exr"));
+    ok(pe_maps_write(maps, in_folder("link.exr"), PE_PIXEL_HALF, &error) == PE_ERROR_FILE, "%s", error.message);
+    unlink(in_folder("link.exr"));
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
 static int stop_at_half(double fraction, void *data)
 {
     *(int *)data += 1;
@@ -219,10 +275,16 @@ static void test_options(void)
     refuse(options, "size");
     options = small;
     options.width = options.height = 8192;
-    refuse(options, "smaller or fewer");
+    refuse(options, "fewer, or smaller");
     options = small;
     options.direction[0] = INFINITY;
     refuse(options, "direction");
+    options = small;
+    for (int c = 0; c < 3; c++)
+        options.direction[c] *= 1e-200;
+    ok(pe_bake(env, &options, &maps, &error) == PE_OK, "a direction may have any length: 1e-200");
+    pe_maps_free(maps);
+    maps = NULL;
     options = small;
     options.progress = stop_at_half;
     options.progress_data = &calls;
@@ -269,6 +331,8 @@ int main(void)
     test_damage();
     test_wrong_files();
     test_options();
+    test_nan();
+    test_modes_and_links();
     test_bright();
     for (int k = 0; k < 6; k++)
         unlink(in_folder(left[k]));
