@@ -92,6 +92,29 @@ render gamma.pov +W8 +H8 -F
 like "$said" "File 'gamma.pov' line 3: Parse Warning: The radiance of an environment is linear: use assumed_gamma 1.0" \
     'another assumed_gamma than 1 is warned of'
 
+# amount NAME WORDS WARNINGS: how often a reflection of these words is warned of for showing nothing.
+amount()
+{
+    scene amount.pov <<<"sphere { 0, 1 finish { reflection { $2 } } }"
+    render amount.pov +W8 +H8 -F
+    is "$render_status $(grep -o "line 4: Parse Warning: This reflection has an environment but no amount" <<<"$said" |
+        wc -l)" "0 $3" "$1"
+}
+
+amount 'a block without an amount is warned of' 'prefiltered_environment { exr "maps.exr" }' 1
+amount '... with fresnel, too' 'fresnel prefiltered_environment { exr "maps.exr" }' 1
+amount 'an amount by fresnel is one' '1 fresnel prefiltered_environment { exr "maps.exr" }' 0
+amount 'an amount at normal incidence only is one' '1, 0 prefiltered_environment { exr "maps.exr" }' 0
+
+reflection 'exr "maps.exr" scale <1, 0, 1>'
+render error.pov +W8 +H8 -F
+like "$render_status $said" "^0 .*line 5: Parse Warning: Illegal Value: Scale Y by 0.0. Changed to 1.0" \
+    'a scale of 0 is taken as 1, with a warning'
+
+printf '%s\n' '#version 3.7;' '#declare prefiltered_environment = 1; sphere { 0, prefiltered_environment }' \
+    '#version unofficial 3.7;' 'sphere { 0, prefiltered_environment }' >name.pov
+rejected 'an identifier of the new name holds until #version unofficial' "File 'name.pov' line 4: Parse Error" name.pov
+
 # POV-Ray 3.7.0.10's restrictions let everything through on Unix (patches/README.md), so all that can be held is that
 # they treat an environment as they treat a picture.
 mkdir -p .povray/3.7 forbidden

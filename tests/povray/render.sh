@@ -27,7 +27,7 @@ render()
     render_status=0
     said=$("$POVRAY_PREFENV" "+I$1" -D +WT2 "${@:2}" 2>&1) || render_status=$?
     said=$(printf '%s' "$said" | tr -s '\r\n\t ' ' ')
-    said=${said#*\[Parsing...\] }
+    said=${said#*Warning Stream to console*On } # "[Parsing...]" itself may come behind the first error
     return $render_status
 }
 
