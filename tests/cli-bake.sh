@@ -55,7 +55,7 @@ ok "a file that exists is replaced" cmp old.exr t1.exr
 oiiotool env.exr --fill:color=-1,0,0 2x1+0+0 -o negative.exr
 # shellcheck disable=SC2086
 said=$("$PREFENV" bake negative.exr -o n.exr $quick 2>&1)
-is "$(grep -c 'warning: negative.exr: 2 .* texels were repaired' <<<"$said")" 1 \
+is "$(grep -c 'warning: negative.exr: 2 of [0-9]* texels, .* were repaired' <<<"$said")" 1 \
     "repaired texels are counted in one warning"
 # shellcheck disable=SC2086
 is "$("$PREFENV" bake negative.exr -o n.exr -q $quick 2>&1)" "" "which --quiet leaves out"

@@ -101,7 +101,9 @@ float *reference_lit_texel(int width, int height, int x, int y, float value)
     return rgb;
 }
 
-float *reference_half_white(int width, int height, const double n[3])
+/* A channel of each texel as a function of its direction w and of n. */
+static float *from_directions(int width, int height,
+                              double (*radiance)(const double w[3], const double n[3], int channel), const double n[3])
 {
     float *rgb = reference_constant(width, height, 0);
 
@@ -111,9 +113,31 @@ float *reference_half_white(int width, int height, const double n[3])
 
             reference_direction(width, height, x, y, w, &theta);
             for (int c = 0; c < 3; c++)
-                rgb[3 * (y * width + x) + c] = dot(w, n) > 0;
+                rgb[3 * (y * width + x) + c] = (float)radiance(w, n, c);
         }
     return rgb;
+}
+
+static double half_white(const double w[3], const double n[3], int channel)
+{
+    (void)channel;
+    return dot(w, n) > 0;
+}
+
+static double gradient(const double w[3], const double n[3], int channel)
+{
+    (void)n;
+    return pow(1 + w[channel], 2);
+}
+
+float *reference_half_white(int width, int height, const double n[3])
+{
+    return from_directions(width, height, half_white, n);
+}
+
+float *reference_gradient(int width, int height)
+{
+    return from_directions(width, height, gradient, NULL);
 }
 
 /* PCG-XSH-RR's smaller sibling (O'Neill 2014): 32 bits of state are plenty for a test. */

@@ -189,26 +189,10 @@ static void test_equator(int width, int height)
     free(rgb);
 }
 
-/* Light that differs on all sides, so that a wrong weight of a sample moves the mean. */
-static float *make_gradient(int width, int height)
-{
-    float *rgb = reference_constant(width, height, 0);
-
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            double w[3], theta;
-
-            reference_direction(width, height, x, y, w, &theta);
-            for (int c = 0; c < 3; c++)
-                rgb[3 * (y * width + x) + c] = (float)pow(1 + w[c], 2);
-        }
-    return rgb;
-}
-
 /* Monte Carlo's mean is Eq. 4: many views, each answered by many samples, a Z-test on the mean difference of each. */
 static void test_monte_carlo(double alpha_x, double alpha_y)
 {
-    environment e = { "gradient", 256, 128, make_gradient(256, 128) };
+    environment e = { "gradient", 256, 128, reference_gradient(256, 128) };
     pe_env *env = make(&e);
     pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
     double sum = 0, sum2 = 0, count = 0;
@@ -240,7 +224,7 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
 /* Errors of neighbouring views are unrelated: with few samples they look like grain, not like stripes. */
 static void test_decorrelated(void)
 {
-    environment e = { "gradient", 64, 32, make_gradient(64, 32) };
+    environment e = { "gradient", 64, 32, reference_gradient(64, 32) };
     pe_env *env = make(&e);
     pe_ndf ndf = { PE_NDF_BECKMANN, 0.5, 0.5 };
     double before = 0, product = 0, square = 0;

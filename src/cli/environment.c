@@ -26,6 +26,6 @@ void cli_warn_of_repairs(const char *command, const char *path, const pe_env *en
     size_t count = pe_env_repairs(env);
 
     if (count)
-        cli_warning(command, "%s: %zu NaN, infinite or negative %s repaired", path, count,
-                    count == 1 ? "texel was" : "texels were");
+        cli_warning(command, "%s: %zu of %lld texels, NaN, infinite or negative, %s repaired", path, count,
+                    (long long)pe_env_width(env) * pe_env_height(env), count == 1 ? "was" : "were");
 }
