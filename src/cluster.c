@@ -33,18 +33,14 @@ typedef struct tree {
     size_t node_count, heap_count;
 } tree;
 
-static double luminance(const float *rgb)
-{
-    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
 static double mean_luminance(const pe_env *env)
 {
     double sum = 0;
 
     for (int y = 0; y < env->height; y++)
         for (int x = 0; x < env->width; x++)
-            sum += env->grid.solid_angle_sr[y] * luminance(env->rgb + 3 * ((size_t)y * (size_t)env->width + (size_t)x));
+            sum +=
+                env->grid.solid_angle_sr[y] * pe_luminance(env->rgb + 3 * ((size_t)y * (size_t)env->width + (size_t)x));
     return sum / (4 * M_PI);
 }
 
@@ -56,7 +52,7 @@ static void gather(const tree *t, const pe_rect *area, moments *m)
         double solid_angle = t->env->grid.solid_angle_sr[y];
 
         for (int x = area->left; x < area->right; x++, texel += 3) {
-            double weight = solid_angle * (luminance(texel) + t->floor), direction[3];
+            double weight = solid_angle * (pe_luminance(texel) + t->floor), direction[3];
 
             pe_grid_direction(&t->env->grid, x, y, direction);
             m->weight += weight;
@@ -219,6 +215,7 @@ pe_status pe_cloud_from_clusters(const pe_env *env, size_t count, pe_cloud *clou
     if (t.nodes && t.heap) {
         grow(&t, leaves);
         cloud->count = 0;
+        cloud->floor = t.floor;
         harvest(&t, 0, cloud);
     } else {
         pe_cloud_free(cloud);

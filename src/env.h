@@ -30,6 +30,12 @@ struct pe_env {
     pe_grid grid;
 };
 
+/* Rec. 709 luminance of linear RGB. */
+static inline double pe_luminance(const float rgb[3])
+{
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+}
+
 /* The texel that `direction` (any length but zero) falls into. */
 const float *pe_env_texel(const pe_env *env, const double direction[3]);
 

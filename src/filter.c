@@ -115,15 +115,14 @@ enum { X, Y, Z, WEIGHT, RED, GREEN, BLUE, VALUES };
 
 pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error *error)
 {
-    size_t texels = (size_t)cloud->env->width * (size_t)cloud->env->height;
-    size_t blocks = (texels + PE_LIGHT_BLOCK - 1) / PE_LIGHT_BLOCK;
+    size_t blocks = (cloud->count + PE_LIGHT_BLOCK - 1) / PE_LIGHT_BLOCK;
 
     *lights = (pe_lights){ 0 };
     lights->values = aligned_alloc(64, blocks * VALUES * PE_LIGHT_BLOCK * sizeof *lights->values);
     lights->cones = malloc(blocks * sizeof *lights->cones);
     if (!lights->values || !lights->cones) {
         pe_lights_free(lights);
-        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", texels);
+        return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %zu lights", cloud->count);
     }
     return PE_OK;
 }
@@ -200,18 +199,32 @@ static void add_light(filling *f, const double world[3], float weight_sr, const 
     }
 }
 
-static void add_texels(filling *f, const pe_env *env, const pe_rect *area)
+/* One light for those of the area's texels that are above the horizon. */
+static void add_upper_part(filling *f, const pe_cloud *cloud, const pe_rect *area)
 {
+    const pe_env *env = cloud->env;
+    double sum[3] = { 0 }, solid_angle = 0, rgb[3] = { 0 }, world[3];
+
     for (int y = area->top; y < area->bottom; y++)
         for (int x = area->left; x < area->right; x++) {
             const float *texel = env->rgb + 3 * ((size_t)y * (size_t)env->width + (size_t)x);
-            float weight = (float)env->grid.solid_angle_sr[y];
-            const float color[3] = { weight * texel[0], weight * texel[1], weight * texel[2] };
-            double world[3];
+            double weight = env->grid.solid_angle_sr[y];
 
             pe_grid_direction(&env->grid, x, y, world);
-            add_light(f, world, weight, color);
+            if (!(pe_dot(f->frame->n, world) > PE_HORIZON))
+                continue;
+            solid_angle += weight;
+            for (int c = 0; c < 3; c++) {
+                sum[c] += weight * (pe_luminance(texel) + cloud->floor) * world[c];
+                rgb[c] += weight * (double)texel[c];
+            }
         }
+    if (solid_angle > 0) {
+        const float color[3] = { (float)rgb[0], (float)rgb[1], (float)rgb[2] };
+
+        pe_normalize(sum, world);
+        add_light(f, world, (float)solid_angle, color);
+    }
 }
 
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights)
@@ -224,7 +237,7 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_re
         const float color[3] = { cloud->r[k], cloud->g[k], cloud->b[k] };
 
         if (cloud->chord && fabs(pe_dot(frame->n, world)) <= (double)cloud->chord[k])
-            add_texels(&f, cloud->env, &cloud->areas[k]);
+            add_upper_part(&f, cloud, &cloud->areas[k]);
         else
             add_light(&f, world, cloud->weight_sr[k], color);
     }

@@ -29,6 +29,7 @@ typedef struct pe_cloud {
     float *weight_sr, *r, *g, *b;
     float *chord;   /* NULL where each light is one texel */
     pe_rect *areas; /* likewise */
+    double floor;   /* what is added to a texel's luminance when directions are averaged */
 } pe_cloud;
 
 /* Room for `count` lights of one texel each, or of several. */
@@ -54,12 +55,12 @@ typedef struct pe_lights {
     pe_light_block *cones;
 } pe_lights;
 
-/* Room for as many lights as a cloud may put into one hemisphere: a light is a texel at least. */
+/* Room for as many lights as a cloud may put into one hemisphere: all of them. */
 pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error *error);
 void pe_lights_free(pe_lights *lights);
 
-/* Fills lights with the hemisphere of the frame's normal.  A light whose texels lie on both sides of the horizon is
- * taken apart, so that nothing from behind the surface counts.  lobe_reach: an angle from the mirror direction beyond which
+/* Fills lights with the hemisphere of the frame's normal.  Of a light whose texels lie on both sides of the horizon,
+ * those above make a light of their own, so that nothing from behind the surface counts.  lobe_reach: an angle from the mirror direction beyond which
  * a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 
