@@ -185,8 +185,8 @@ static double cluster_count(const pe_ndf *ndf)
     return CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (ndf->alpha_x * ndf->alpha_y);
 }
 
-/* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their half
- * vectors raises that to (1 + 18 alpha^2)^2 times as much. */
+/* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their
+ * half vectors raises that to (1 + 18 alpha^2)^2 times as much. */
 #define FAST_LIMIT 18
 
 /* With half as many clusters as texels there is nothing to gain from them. */

@@ -6,13 +6,13 @@
 #include "prefenv.h"
 #include "vector.h"
 
-/* exp(-x) with x beyond this counts as 0, in production and in truth alike: single precision would turn denormal.  Where
- * no texel at all has weight, the lobe is far narrower than they are, and pe_bake and pe_exact show a mirror; a lobe that
- * is not quite so narrow shows the texel nearest to its middle. */
+/* exp(-x) with x beyond this counts as 0, in production and in truth alike: single precision would turn denormal.
+ * Where no texel at all has weight, the lobe is far narrower than they are, and pe_bake and pe_exact show a mirror; a
+ * lobe that is not quite so narrow shows the texel nearest to its middle. */
 #define PE_LOBE_CUTOFF 55.0
 
-/* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only rounding:
- * texels that lie on the horizon itself, on neither side. */
+/* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only
+ * rounding: texels that lie on the horizon itself, on neither side. */
 #define PE_HORIZON 1e-9
 
 /* Half-open rectangle of texels. */
@@ -60,8 +60,8 @@ pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error 
 void pe_lights_free(pe_lights *lights);
 
 /* Fills lights with the hemisphere of the frame's normal.  Of a light whose texels lie on both sides of the horizon,
- * those above make a light of their own, so that nothing from behind the surface counts.  lobe_reach: an angle from the mirror direction beyond which
- * a light does not matter. */
+ * those above make a light of their own, so that nothing from behind the surface counts.  lobe_reach: an angle from
+ * the mirror direction beyond which a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 
 /* The angle from the mirror direction beyond which weights are below exp(-limit) of the mirror's.  A half vector moves

@@ -122,7 +122,7 @@ static void test_exact(const environment *e, double alpha_x, double alpha_y, con
     pe_env_free(env);
 }
 
-/* The rounding of h = o + w in single precision is a part of 1e-7 of the lobe's width: its effect grows as 1 / alpha. */
+/* The rounding of h = o + w in single precision is a part of 1e-7 of the lobe: its effect grows as 1 / alpha. */
 static void test_narrow(double alpha)
 {
     environment e = { "noise", 128, 64, reference_noise(128, 64, 8) };
@@ -157,14 +157,14 @@ static void test_narrow(double alpha)
     free(e.rgb);
 }
 
-/* Odd heights and widths of 4 k + 2 put texels on the equators of normals along the axes, in environment and maps: they must
- * be like their neighbours and not a mirror's. */
+/* Odd heights and widths of 4 k + 2 put texels on the equators of normals along the axes, in environment and maps:
+ * they must be like their neighbours and not a mirror's. */
 static void test_equator(int width, int height)
 {
     float *rgb = reference_constant(width, height, 0);
     pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, 0.2, 0.2 }, .width = width, .height = height };
-    pe_env *env;
-    pe_maps *maps;
+    pe_env *env = NULL;
+    pe_maps *maps = NULL;
     double worst = 0;
     int on_equators = 0;
 
