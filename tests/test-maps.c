@@ -6,7 +6,6 @@
 
 #include <dirent.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -187,19 +186,19 @@ static void test_wrong_files(void)
 static void test_nan(void)
 {
     static unsigned char bytes[1 << 20];
-    static const float mark = 1234.5f, nan = NAN;
-    float *rgb = reference_constant(16, 8, mark);
+    static const float nan = NAN;
     pe_bake_options options = small;
-    pe_env *env;
+    pe_env *env = noise(16, 8);
     pe_maps *maps = NULL;
     pe_error error = { PE_OK, "" };
+    float mark;
     size_t size;
     int marks = 0;
 
-    options.width = options.height = 2; /* too small to be compressed, so that texels are found in the file */
-    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
-    for (int k = 0; k < 6 * 21; k++)
-        ((float *)(uintptr_t)pe_maps_image(maps, 0))[k * 2] = 0.001f * (float)k; /* noise keeps ZIP from gaining */
+    options.width = options.height =
+        2; /* noise this small gains nothing from ZIP: texels stand in the file as they are */
+    need(pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
+    mark = pe_maps_image(maps, 0)[0];
     need(pe_maps_write(maps, in_folder("c.exr"), PE_PIXEL_FLOAT, NULL) == PE_OK, "write");
     pe_maps_free(maps);
     maps = NULL;
@@ -213,7 +212,6 @@ static void test_nan(void)
     ok(pe_maps_read_memory(bytes, size, "nan.exr", &maps, &error) == PE_ERROR_FORMAT && strstr(error.message, "finite"),
        "%s", error.message);
     pe_env_free(env);
-    free(rgb);
 }
 
 static void test_modes_and_links(void)
