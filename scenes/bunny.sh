@@ -3,7 +3,7 @@
 #
 #   make bunny                              the courtyard, alpha 0.1
 #   make HDRI=my.exr ALPHA=0.2 bunny        an environment of one's own: OpenEXR, Radiance HDR or PNG, lat-long
-#   make HDRI=sunset ALPHA=0.1,0.03 bunny   one of those that ./bootstrap fetched, and brushed metal
+#   make HDRI=sunset ALPHA=0.03,0.1 bunny   one of those that ./bootstrap fetched, and brushed metal
 #
 # The picture is figures/bunny.png in the build tree, whole or not there at all; the maps stay beside it, bunny.pe.exr.
 

@@ -3,7 +3,8 @@
 //
 //     prefenv bake courtyard.exr -o brushed.pe.exr --alpha 0.1,0.03 --direction 0,1,0
 //
-// The maps hold for the brush direction y: the axis of this cylinder, however the environment is turned about y.
+// The first alpha is along the direction given, here the axis, and the second across it, along the grooves; brushed along
+// y it would be --alpha 0.03,0.1.  The maps hold for this direction, however the environment is turned about y.
 
 #version unofficial 3.7;
 global_settings { assumed_gamma 1 }

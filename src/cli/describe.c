@@ -11,7 +11,7 @@ static const char *method_name(pe_method method)
 void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
 {
     if (info->accuracy == PE_ACCURACY_FAST)
-        snprintf(text, DESCRIBE_BYTES, "fast, estimated relative error %.2g %%", 100 * info->error_estimate);
+        snprintf(text, DESCRIBE_BYTES, "fast, an estimated %.2g %% from exact filtering", 100 * info->error_estimate);
     else
         snprintf(text, DESCRIBE_BYTES, "exact");
 }
