@@ -43,15 +43,11 @@ typedef struct batch {
     float *out[PE_FILTER_POINTS_MAX];
 } batch;
 
-/* The quotient of Eq. 5; where no light has weight the lobe lies between texels and is a mirror. */
 static void store(const pe_env *env, const double sums[4], const double world[3], float *out)
 {
     double rgb[3];
 
-    if (sums[0] > 0)
-        pe_scale(1 / sums[0], sums + 1, rgb);
-    else
-        pe_env_lookup(env, world, rgb);
+    pe_filter_quotient(env, sums, world, rgb);
     for (int c = 0; c < 3; c++)
         out[c] = (float)rgb[c];
 }
@@ -69,12 +65,8 @@ static void finish(const job *j, const pe_lights *lights, batch *points)
 static void add_point(const job *j, const side *s, const double world[3], float *out, batch *points)
 {
     size_t k = points->count++;
-    double w[3];
 
-    pe_frame_coordinates(&s->frame, world, w);
-    points->o[k][0] = (float)-w[0];
-    points->o[k][1] = (float)-w[1];
-    points->o[k][2] = (float)w[2];
+    pe_mirror_viewer(&s->frame, world, points->o[k]);
     memcpy(points->world[k], world, sizeof points->world[k]);
     points->out[k] = out;
     if (points->count == PE_FILTER_POINTS_MAX)
@@ -143,15 +135,11 @@ static void filter_baseline_row(size_t y, void *data)
     if (pe_lights_allocate(j->cloud, &lights, NULL) != PE_OK)
         return;
     for (int x = 0; x < j->maps->info.width; x++) {
-        const float head_on[1][3] = { { 0, 0, 1 } };
-        double world[3], sums[1][4];
-        pe_frame frame;
+        double world[3], sums[4];
 
         pe_grid_direction(&j->maps->grid, x, (int)y, world);
-        pe_frame_make(world, j->maps->info.direction, &frame);
-        pe_lights_fill(j->cloud, &frame, j->lobe_reach, &lights);
-        pe_filter_points(&j->maps->info.ndf, &lights, head_on, 1, sums);
-        store(j->env, sums[0], world, row_of(j, y) + 3 * x);
+        pe_filter_head_on(&j->maps->info.ndf, j->cloud, j->maps->info.direction, world, j->lobe_reach, &lights, sums);
+        store(j->env, sums, world, row_of(j, y) + 3 * x);
     }
     pe_lights_free(&lights);
     j->row_done[y] = 1;

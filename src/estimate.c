@@ -27,10 +27,7 @@ static void compare(trial *t, const double world[3], const float *baked, const d
 {
     double exact[3];
 
-    if (sums[0] > 0)
-        pe_scale(1 / sums[0], sums + 1, exact);
-    else
-        pe_env_lookup(t->cloud->env, world, exact);
+    pe_filter_quotient(t->cloud->env, sums, world, exact);
     for (int c = 0; c < 3; c++) {
         double difference = (double)baked[c] - exact[c];
 
@@ -53,18 +50,15 @@ static void place_texel(const trial *t, int k, int *x, int *y)
 static void try_texels(trial *t, int image, const pe_frame *frame, const pe_lights *lights)
 {
     for (int k = 0; k < POINTS_PER_FRAME; k++) {
-        double world[3], w[3], sums[1][4];
+        double world[3], sums[1][4];
         float o[1][3];
         int x, y;
 
         place_texel(t, k, &x, &y);
         pe_grid_direction(&t->maps->grid, x, y, world);
-        pe_frame_coordinates(frame, world, w);
-        if (!(w[2] > COSINE_MIN))
+        if (!(pe_dot(frame->n, world) > COSINE_MIN))
             continue;
-        o[0][0] = (float)-w[0];
-        o[0][1] = (float)-w[1];
-        o[0][2] = (float)w[2];
+        pe_mirror_viewer(frame, world, o[0]);
         pe_filter_points(&t->maps->info.ndf, lights, (const float(*)[3])o, 1, sums);
         compare(t, world, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
@@ -84,17 +78,14 @@ static void try_normal(trial *t, pe_lights *lights)
 static void try_baseline(trial *t, pe_lights *lights)
 {
     for (int k = 0; k < POINTS_PER_FRAME / FRAMES; k++) {
-        const float head_on[1][3] = { { 0, 0, 1 } };
-        double world[3], sums[1][4];
-        pe_frame frame;
+        double world[3], sums[4];
         int x, y;
 
         place_texel(t, k, &x, &y);
         pe_grid_direction(&t->maps->grid, x, y, world);
-        pe_frame_make(world, t->maps->info.direction, &frame);
-        pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights);
-        pe_filter_points(&t->maps->info.ndf, lights, head_on, 1, sums);
-        compare(t, world, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
+        pe_filter_head_on(&t->maps->info.ndf, t->cloud, t->maps->info.direction, world,
+                          pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights, sums);
+        compare(t, world, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums);
     }
 }
 

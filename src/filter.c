@@ -356,3 +356,34 @@ void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*
     memset(sums, 0, count * sizeof *sums);
     beckmann_points(ndf, lights, o, count, sums);
 }
+
+void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
+{
+    double w[3];
+
+    pe_frame_coordinates(frame, world, w);
+    o[0] = (float)-w[0];
+    o[1] = (float)-w[1];
+    o[2] = (float)w[2];
+}
+
+void pe_filter_head_on(const pe_ndf *ndf, const pe_cloud *cloud, const double direction[3], const double world[3],
+                       double lobe_reach, pe_lights *lights, double sums[4])
+{
+    static const float head_on[1][3] = { { 0, 0, 1 } };
+    double one[1][4];
+    pe_frame frame;
+
+    pe_frame_make(world, direction, &frame);
+    pe_lights_fill(cloud, &frame, lobe_reach, lights);
+    pe_filter_points(ndf, lights, head_on, 1, one);
+    memcpy(sums, one[0], sizeof one[0]);
+}
+
+void pe_filter_quotient(const pe_env *env, const double sums[4], const double world[3], double rgb[3])
+{
+    if (sums[0] > 0)
+        pe_scale(1 / sums[0], sums + 1, rgb);
+    else
+        pe_env_lookup(env, world, rgb);
+}

@@ -74,4 +74,16 @@ void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*
 
 #define PE_FILTER_POINTS_MAX 64 /* most points in one call */
 
+/* The viewer who sees the direction `world` in a mirror of the frame's normal: with world = (x, y, z) in the frame,
+ * o = (-x, -y, z). */
+void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3]);
+
+/* pe_filter_points for the one viewer who sees the unit direction `world` head on, n = o = world.  `lights` is refilled
+ * for that normal; `direction` is the brush's. */
+void pe_filter_head_on(const pe_ndf *ndf, const pe_cloud *cloud, const double direction[3], const double world[3],
+                       double lobe_reach, pe_lights *lights, double sums[4]);
+
+/* The quotient of Eq. 5, towards `world`; where no light has weight, what a mirror shows. */
+void pe_filter_quotient(const pe_env *env, const double sums[4], const double world[3], double rgb[3]);
+
 #endif
