@@ -43,11 +43,11 @@ typedef struct batch {
     float *out[PE_FILTER_POINTS_MAX];
 } batch;
 
-static void store(const pe_env *env, const double sums[4], const double world[3], float *out)
+static void store(const job *j, const double sums[4], const double world[3], double cos_o, float *out)
 {
     double rgb[3];
 
-    pe_filter_quotient(env, sums, world, rgb);
+    pe_filter_radiance(&j->maps->info.surface, j->env, sums, world, cos_o, rgb);
     for (int c = 0; c < 3; c++)
         out[c] = (float)rgb[c];
 }
@@ -56,9 +56,9 @@ static void finish(const job *j, const pe_lights *lights, batch *points)
 {
     double sums[PE_FILTER_POINTS_MAX][4];
 
-    pe_filter_points(&j->maps->info.ndf, lights, (const float(*)[3])points->o, points->count, sums);
+    pe_filter_points(&j->maps->info.surface, lights, (const float(*)[3])points->o, points->count, sums);
     for (size_t k = 0; k < points->count; k++)
-        store(j->env, sums[k], points->world[k], points->out[k]);
+        store(j, sums[k], points->world[k], (double)points->o[k][2], points->out[k]);
     points->count = 0;
 }
 
@@ -138,8 +138,9 @@ static void filter_baseline_row(size_t y, void *data)
         double world[3], sums[4];
 
         pe_grid_direction(&j->maps->grid, x, (int)y, world);
-        pe_filter_head_on(&j->maps->info.ndf, j->cloud, j->maps->info.direction, world, j->lobe_reach, &lights, sums);
-        store(j->env, sums, world, row_of(j, y) + 3 * x);
+        pe_filter_head_on(&j->maps->info.surface, j->cloud, j->maps->info.direction, world, j->lobe_reach, &lights,
+                          sums);
+        store(j, sums, world, 1, row_of(j, y) + 3 * x);
     }
     pe_lights_free(&lights);
     j->row_done[y] = 1;
@@ -180,7 +181,7 @@ static double cluster_count(const pe_ndf *ndf)
 /* With half as many clusters as texels there is nothing to gain from them. */
 static pe_status make_cloud(const pe_env *env, const pe_maps_info *info, pe_cloud *cloud, pe_error *error)
 {
-    double texels = (double)env->width * env->height, clusters = cluster_count(&info->ndf);
+    double texels = (double)env->width * env->height, clusters = cluster_count(&info->surface.ndf);
 
     if (info->accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
         return pe_cloud_from_env(env, cloud, error);
@@ -197,7 +198,7 @@ static pe_status fill_maps(const pe_env *env, pe_maps *maps, const pe_bake_optio
 
     if (status != PE_OK)
         return status;
-    j.lobe_reach = pe_lobe_reach(&info->ndf, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
+    j.lobe_reach = pe_lobe_reach(&info->surface, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
     status = info->method == PE_METHOD_BASELINE ? bake_baseline(&j, options->threads, &report, error)
                                                 : bake_images(&j, options->threads, &report, error);
     pe_cloud_free(&cloud);
@@ -221,7 +222,7 @@ static void choose_info(const pe_env *env, const pe_bake_options *options, pe_ma
     const double *d = options->direction;
 
     *info = (pe_maps_info){ .method = options->method,
-                            .ndf = options->ndf,
+                            .surface = options->surface,
                             .normals = options->normals ? options->normals : 42,
                             .width = options->width ? options->width : 400,
                             .height = options->height ? options->height : 200,
@@ -229,8 +230,8 @@ static void choose_info(const pe_env *env, const pe_bake_options *options, pe_ma
                             .source_width = env->width,
                             .source_height = env->height,
                             .accuracy = choose_accuracy(options->accuracy, env) };
-    if (info->ndf.alpha_x == 0 && info->ndf.alpha_y == 0)
-        info->ndf.alpha_x = info->ndf.alpha_y = 0.1;
+    if (info->surface.ndf.alpha_x == 0 && info->surface.ndf.alpha_y == 0)
+        info->surface.ndf.alpha_x = info->surface.ndf.alpha_y = 0.1;
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
 }
 

@@ -23,11 +23,11 @@ typedef struct trial {
 } trial;
 
 /* Adds the squared difference of one texel, looking along `world`, done again as `sums`. */
-static void compare(trial *t, const double world[3], const float *baked, const double sums[4])
+static void compare(trial *t, const double world[3], double cos_o, const float *baked, const double sums[4])
 {
     double exact[3];
 
-    pe_filter_quotient(t->cloud->env, sums, world, exact);
+    pe_filter_radiance(&t->maps->info.surface, t->cloud->env, sums, world, cos_o, exact);
     for (int c = 0; c < 3; c++) {
         double difference = (double)baked[c] - exact[c];
 
@@ -59,8 +59,8 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
         if (!(pe_dot(frame->n, world) > COSINE_MIN))
             continue;
         pe_mirror_viewer(frame, world, o[0]);
-        pe_filter_points(&t->maps->info.ndf, lights, (const float(*)[3])o, 1, sums);
-        compare(t, world, pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
+        pe_filter_points(&t->maps->info.surface, lights, (const float(*)[3])o, 1, sums);
+        compare(t, world, (double)o[0][2], pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -70,7 +70,7 @@ static void try_normal(trial *t, pe_lights *lights)
     pe_frame frame;
 
     pe_frame_make(pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame);
-    pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights);
+    pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.surface, PE_LOBE_CUTOFF), lights);
     try_texels(t, vertex / 2, &frame, lights);
 }
 
@@ -83,9 +83,9 @@ static void try_baseline(trial *t, pe_lights *lights)
 
         place_texel(t, k, &x, &y);
         pe_grid_direction(&t->maps->grid, x, y, world);
-        pe_filter_head_on(&t->maps->info.ndf, t->cloud, t->maps->info.direction, world,
-                          pe_lobe_reach(&t->maps->info.ndf, PE_LOBE_CUTOFF), lights, sums);
-        compare(t, world, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums);
+        pe_filter_head_on(&t->maps->info.surface, t->cloud, t->maps->info.direction, world,
+                          pe_lobe_reach(&t->maps->info.surface, PE_LOBE_CUTOFF), lights, sums);
+        compare(t, world, 1, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums);
     }
 }
 

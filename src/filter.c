@@ -247,9 +247,9 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_re
     }
 }
 
-double pe_lobe_reach(const pe_ndf *ndf, double limit)
+double pe_lobe_reach(const pe_surface *surface, double limit)
 {
-    return 2 * atan(fmax(ndf->alpha_x, ndf->alpha_y) * sqrt(limit));
+    return 2 * atan(fmax(surface->ndf.alpha_x, surface->ndf.alpha_y) * sqrt(limit));
 }
 
 /* ---- the hot loop ---- */
@@ -351,10 +351,11 @@ CLONES static void beckmann_points(const pe_ndf *ndf, const pe_lights *lights, c
         flush(&lanes[k], sums[k]);
 }
 
-void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count, double (*sums)[4])
+void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const float (*o)[3], size_t count,
+                      double (*sums)[4])
 {
     memset(sums, 0, count * sizeof *sums);
-    beckmann_points(ndf, lights, o, count, sums);
+    beckmann_points(&surface->ndf, lights, o, count, sums);
 }
 
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
@@ -367,8 +368,8 @@ void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
     o[2] = (float)w[2];
 }
 
-void pe_filter_head_on(const pe_ndf *ndf, const pe_cloud *cloud, const double direction[3], const double world[3],
-                       double lobe_reach, pe_lights *lights, double sums[4])
+void pe_filter_head_on(const pe_surface *surface, const pe_cloud *cloud, const double direction[3],
+                       const double world[3], double lobe_reach, pe_lights *lights, double sums[4])
 {
     static const float head_on[1][3] = { { 0, 0, 1 } };
     double one[1][4];
@@ -376,12 +377,15 @@ void pe_filter_head_on(const pe_ndf *ndf, const pe_cloud *cloud, const double di
 
     pe_frame_make(world, direction, &frame);
     pe_lights_fill(cloud, &frame, lobe_reach, lights);
-    pe_filter_points(ndf, lights, head_on, 1, one);
+    pe_filter_points(surface, lights, head_on, 1, one);
     memcpy(sums, one[0], sizeof one[0]);
 }
 
-void pe_filter_quotient(const pe_env *env, const double sums[4], const double world[3], double rgb[3])
+void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
+                        double cos_o, double rgb[3])
 {
+    (void)surface;
+    (void)cos_o;
     if (sums[0] > 0)
         pe_scale(1 / sums[0], sums + 1, rgb);
     else

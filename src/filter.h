@@ -66,11 +66,12 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_re
 
 /* The angle from the mirror direction beyond which weights are below exp(-limit) of the mirror's.  A half vector moves
  * by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
-double pe_lobe_reach(const pe_ndf *ndf, double limit);
+double pe_lobe_reach(const pe_surface *surface, double limit);
 
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,
  * each times D(h). A common factor of D is left out: only ratios of sums mean anything. */
-void pe_filter_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count, double (*sums)[4]);
+void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const float (*o)[3], size_t count,
+                      double (*sums)[4]);
 
 #define PE_FILTER_POINTS_MAX 64 /* most points in one call */
 
@@ -80,10 +81,12 @@ void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3]);
 
 /* pe_filter_points for the one viewer who sees the unit direction `world` head on, n = o = world.  `lights` is refilled
  * for that normal; `direction` is the brush's. */
-void pe_filter_head_on(const pe_ndf *ndf, const pe_cloud *cloud, const double direction[3], const double world[3],
-                       double lobe_reach, pe_lights *lights, double sums[4]);
+void pe_filter_head_on(const pe_surface *surface, const pe_cloud *cloud, const double direction[3],
+                       const double world[3], double lobe_reach, pe_lights *lights, double sums[4]);
 
-/* The quotient of Eq. 5, towards `world`; where no light has weight, what a mirror shows. */
-void pe_filter_quotient(const pe_env *env, const double sums[4], const double world[3], double rgb[3]);
+/* What the viewer sees who would see `world` in a mirror whose normal is cos_o from it: the quotient of Eq. 5; where no
+ * light has weight, what a mirror shows. */
+void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
+                        double cos_o, double rgb[3]);
 
 #endif

@@ -30,7 +30,7 @@ static pe_status check_normals(int normals, pe_error *error)
 
 static pe_status check_info(pe_maps_info *info, pe_error *error)
 {
-    pe_status status = pe_ndf_check(&info->ndf, error);
+    pe_status status = pe_surface_check(&info->surface, error);
 
     if (status != PE_OK)
         return status;

@@ -47,9 +47,9 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
     const pe_attribute all[ATTRIBUTES] = {
         integer("prefenv:version", PE_MAPS_FORMAT_VERSION),
         string("prefenv:method", method_names[info->method]),
-        string("prefenv:ndf", ndf_names[info->ndf.kind]),
-        number("prefenv:alphaX", info->ndf.alpha_x),
-        number("prefenv:alphaY", info->ndf.alpha_y),
+        string("prefenv:ndf", ndf_names[info->surface.ndf.kind]),
+        number("prefenv:alphaX", info->surface.ndf.alpha_x),
+        number("prefenv:alphaY", info->surface.ndf.alpha_y),
         vector("prefenv:direction", info->direction),
         integer("prefenv:normals", info->normals),
         string("prefenv:source", info->source_name),
@@ -222,8 +222,8 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     *info = (pe_maps_info){ .format_version = PE_MAPS_FORMAT_VERSION };
     AND_THEN(get_choice(from, "prefenv:method", method_names, COUNT(method_names), &method))
     AND_THEN(get_choice(from, "prefenv:ndf", ndf_names, COUNT(ndf_names), &kind))
-    AND_THEN(get_number(from, "prefenv:alphaX", &info->ndf.alpha_x))
-    AND_THEN(get_number(from, "prefenv:alphaY", &info->ndf.alpha_y))
+    AND_THEN(get_number(from, "prefenv:alphaX", &info->surface.ndf.alpha_x))
+    AND_THEN(get_number(from, "prefenv:alphaY", &info->surface.ndf.alpha_y))
     AND_THEN(get_vector(from, 0, "prefenv:direction", info->direction))
     AND_THEN(get_integer(from, "prefenv:normals", &info->normals))
     AND_THEN(get_integer(from, "prefenv:sourceWidth", &info->source_width))
@@ -233,7 +233,7 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     if (status != PE_OK)
         return status;
     info->method = (pe_method)method;
-    info->ndf.kind = (pe_ndf_kind)kind;
+    info->surface.ndf.kind = (pe_ndf_kind)kind;
     info->accuracy = (pe_accuracy)accuracy;
     pe_exr_get_attribute(from->file, 0, &source);
     info->source_name = source.string;

@@ -16,6 +16,13 @@ pe_status pe_ndf_check(const pe_ndf *ndf, pe_error *error)
     return PE_OK;
 }
 
+pe_status pe_surface_check(const pe_surface *surface, pe_error *error)
+{
+    if (surface->weight != PE_WEIGHT_NDF)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "weight: kind %d is not known; ndf is", (int)surface->weight);
+    return pe_ndf_check(&surface->ndf, error);
+}
+
 double pe_ndf_evaluate(const pe_ndf *ndf, const double h[3])
 {
     double p, q, cos2;

@@ -110,13 +110,20 @@ void pe_latlong_coordinates(const double direction[3], double *u, double *v);
 /* ---- normal distributions ----------------------------------------------------------------------------------- */
 
 typedef enum pe_ndf_kind {
-    PE_NDF_BECKMANN = 0 /* [Motegi Eq. 6] */
+    PE_NDF_BECKMANN = 0, /* [Motegi Eq. 6] */
+    PE_NDF_GGX,          /* Trowbridge-Reitz: long tails */
+    PE_NDF_PHONG,        /* a power of cos(theta_h), 2 / alpha^2 - 2 */
+    PE_NDF_TABLE         /* measured: `table` */
 } pe_ndf_kind;
 
-/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX]. */
+typedef struct pe_ndf_table pe_ndf_table;
+
+/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX].  `table` is for PE_NDF_TABLE,
+ * which ignores the alphas, and lives as long as what uses it. */
 typedef struct pe_ndf {
     pe_ndf_kind kind;
     double alpha_x, alpha_y;
+    const pe_ndf_table *table;
 } pe_ndf;
 
 #define PE_ALPHA_MIN 0.001
@@ -130,6 +137,24 @@ double pe_ndf_evaluate(const pe_ndf *ndf, const double h[3]);
 /* h (unit, tangent frame) with density D(h) cos(theta_h) per steradian, from u1, u2 in [0, 1). */
 void pe_ndf_sample(const pe_ndf *ndf, double u1, double u2, double h[3]);
 
+/* ---- surfaces ------------------------------------------------------------------------------------------------ */
+
+/* How the light w is weighted when the viewer looks along o. */
+typedef enum pe_weight {
+    PE_WEIGHT_NDF = 0,   /* by D(h), and divided by the sum of weights: [Motegi Eq. 4] */
+    PE_WEIGHT_MICROFACET /* by D(h) G2(o, w) F(o.h) / (4 o.n): single scattering, with its colour and its losses */
+} pe_weight;
+
+/* A surface that reflects.  eta + i k is a conductor's complex index of refraction for red, green and blue;
+ * PE_WEIGHT_NDF ignores it, and where both are 0 the reflectance F is 1. */
+typedef struct pe_surface {
+    pe_ndf ndf;
+    pe_weight weight;
+    double eta[3], k[3];
+} pe_surface;
+
+pe_status pe_surface_check(const pe_surface *surface, pe_error *error);
+
 /* ---- the truth ---------------------------------------------------------------------------------------------- */
 
 /* Both take n and o of any length but zero; if o lies behind the surface, n is turned to face it.  `direction` is the
@@ -138,10 +163,10 @@ void pe_ndf_sample(const pe_ndf *ndf, double u1, double u2, double h[3]);
  * pe_exact: every texel of the hemisphere weighted by D(h) and its solid angle, in double precision.  [Motegi Eq. 4]
  * pe_monte_carlo: `samples` >= 1 half vectors drawn from the NDF, weighted so that the mean is Eq. 4; the sequence
  * depends on n and o alone, so that a picture is the same in every run and for any number of threads. */
-void pe_exact(const pe_env *env, const pe_ndf *ndf, const double direction[3], const double n[3], const double o[3],
-              double rgb[3]);
-void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction[3], int samples, const double n[3],
-                    const double o[3], double rgb[3]);
+void pe_exact(const pe_env *env, const pe_surface *surface, const double direction[3], const double n[3],
+              const double o[3], double rgb[3]);
+void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double direction[3], int samples,
+                    const double n[3], const double o[3], double rgb[3]);
 
 /* ---- maps: bake, read, write -------------------------------------------------------------------------------- */
 
@@ -162,7 +187,7 @@ typedef enum pe_accuracy {
 /* A struct of zeros means the defaults. */
 typedef struct pe_bake_options {
     pe_method method;
-    pe_ndf ndf;          /* both alphas 0: 0.1 */
+    pe_surface surface;  /* both alphas 0: 0.1 */
     double direction[3]; /* brush direction, any length; 0 0 0: +y */
     int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: 42.  Baseline: ignored */
     int width, height;   /* of a map, in texels, each in [2, 8192]; 0: 400 x 200 */
@@ -178,7 +203,7 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **m
 typedef struct pe_maps_info {
     int format_version;
     pe_method method;
-    pe_ndf ndf;
+    pe_surface surface;
     double direction[3];
     int normals;       /* 0 for baseline */
     int frequency;     /* of the geodesic sphere; 0 for baseline */

@@ -69,15 +69,15 @@ static void add_row(const pe_env *env, const pe_ndf *ndf, const view *v, int y, 
     }
 }
 
-void pe_exact(const pe_env *env, const pe_ndf *ndf, const double direction[3], const double n[3], const double o[3],
-              double rgb[3])
+void pe_exact(const pe_env *env, const pe_surface *surface, const double direction[3], const double n[3],
+              const double o[3], double rgb[3])
 {
     double sums[4] = { 0 };
     view v;
 
     make_view(direction, n, o, &v);
     for (int y = 0; y < env->height; y++)
-        add_row(env, ndf, &v, y, sums);
+        add_row(env, &surface->ndf, &v, y, sums);
     if (sums[0] > 0)
         pe_scale(1 / sums[0], sums + 1, rgb);
     else
@@ -141,8 +141,8 @@ static void add_sample(const pe_env *env, const view *v, const double h[3], doub
 }
 
 /* Lattice points shifted by the view's offsets: evenly spread in a pixel, unrelated between pixels. */
-void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction[3], int samples, const double n[3],
-                    const double o[3], double rgb[3])
+void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double direction[3], int samples,
+                    const double n[3], const double o[3], double rgb[3])
 {
     double sums[4] = { 0 }, offsets[2];
     view v;
@@ -153,7 +153,7 @@ void pe_monte_carlo(const pe_env *env, const pe_ndf *ndf, const double direction
         double u[2], h[3];
 
         pe_lattice_point(k, offsets, u);
-        pe_ndf_sample(ndf, u[0], u[1], h);
+        pe_ndf_sample(&surface->ndf, u[0], u[1], h);
         add_sample(env, &v, h, sums);
     }
     if (sums[0] > 0)

@@ -14,9 +14,11 @@
 
 static pe_maps *bake(const pe_env *env, double alpha_x, double alpha_y, pe_accuracy accuracy)
 {
-    pe_bake_options options = {
-        .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y }, .normals = 12, .width = 80, .height = 40, .accuracy = accuracy
-    };
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
+                                .normals = 12,
+                                .width = 80,
+                                .height = 40,
+                                .accuracy = accuracy };
     pe_maps *maps;
     pe_error error;
 

@@ -40,7 +40,8 @@ static void reference_texel(const environment *e, const pe_maps_info *info, cons
     pe_scale(pe_dot(w, n_k) > 0 ? 1 : -1, n_k, n);
     pe_reflect(w, n, o);
     pe_normalize(info->direction, d);
-    reference_reflection(e->rgb, e->width, e->height, info->ndf.alpha_x, info->ndf.alpha_y, d, n, o, out);
+    reference_reflection(e->rgb, e->width, e->height, info->surface.ndf.alpha_x, info->surface.ndf.alpha_y, d, n, o,
+                         out);
 }
 
 /* Differences over every `stride`-th texel of every image. */
@@ -77,7 +78,7 @@ static void compare(const environment *e, const pe_maps *maps, int stride, doubl
 static void test_bake(const environment *e, pe_method method, double alpha_x, double alpha_y, const double direction[3])
 {
     pe_bake_options options = { .method = method,
-                                .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y },
+                                .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
                                 .direction = { direction[0], direction[1], direction[2] },
                                 .normals = 12,
                                 .width = 37,
@@ -99,7 +100,7 @@ static void test_bake(const environment *e, pe_method method, double alpha_x, do
 static void test_exact(const environment *e, double alpha_x, double alpha_y, const double direction[3])
 {
     pe_env *env = make(e);
-    pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
+    pe_surface surface = { .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL } };
     double worst = 0, unit_direction[3];
     unsigned state = 11;
 
@@ -111,7 +112,7 @@ static void test_exact(const environment *e, double alpha_x, double alpha_y, con
         reference_random_direction(&state, o);
         pe_scale(3, n, long_n);
         pe_scale(0.2, o, long_o);
-        pe_exact(env, &ndf, direction, long_n, long_o, got);
+        pe_exact(env, &surface, direction, long_n, long_o, got);
         if (pe_dot(n, o) < 0)
             pe_scale(-1, n, n);
         reference_reflection(e->rgb, e->width, e->height, alpha_x, alpha_y, unit_direction, n, o, expected);
@@ -126,7 +127,7 @@ static void test_exact(const environment *e, double alpha_x, double alpha_y, con
 static void test_narrow(double alpha)
 {
     environment e = { "noise", 128, 64, reference_noise(128, 64, 8) };
-    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, alpha, alpha },
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha, alpha, NULL },
                                 .normals = 12,
                                 .width = 37,
                                 .height = 18,
@@ -145,7 +146,7 @@ static void test_narrow(double alpha)
         pe_maps_normal(maps, 0, n);
         pe_scale(pe_dot(w, n) > 0 ? 1 : -1, n, n);
         pe_reflect(w, n, o);
-        pe_exact(env, &info->ndf, plus_y, n, o, exact);
+        pe_exact(env, &info->surface, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             rms += pow((double)pe_maps_image(maps, 0)[3 * texel + c] - exact[c], 2);
             norm2 += exact[c] * exact[c];
@@ -162,7 +163,7 @@ static void test_narrow(double alpha)
 static void test_equator(int width, int height)
 {
     float *rgb = reference_constant(width, height, 0);
-    pe_bake_options options = { .ndf = { PE_NDF_BECKMANN, 0.2, 0.2 }, .width = width, .height = height };
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.2, NULL }, .width = width, .height = height };
     pe_env *env = NULL;
     pe_maps *maps = NULL;
     double worst = 0;
@@ -194,7 +195,7 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
 {
     environment e = { "gradient", 256, 128, reference_gradient(256, 128) };
     pe_env *env = make(&e);
-    pe_ndf ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y };
+    pe_surface surface = { .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL } };
     double sum = 0, sum2 = 0, count = 0;
     unsigned state = 5;
 
@@ -205,8 +206,8 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
         reference_random_direction(&state, o);
         if (fabs(pe_dot(n, o)) < 0.1)
             continue;
-        pe_monte_carlo(env, &ndf, plus_y, 2048, n, o, got);
-        pe_exact(env, &ndf, plus_y, n, o, expected);
+        pe_monte_carlo(env, &surface, plus_y, 2048, n, o, got);
+        pe_exact(env, &surface, plus_y, n, o, expected);
         for (int c = 0; c < 3; c++) {
             sum += got[c] - expected[c];
             sum2 += (got[c] - expected[c]) * (got[c] - expected[c]);
@@ -226,14 +227,14 @@ static void test_decorrelated(void)
 {
     environment e = { "gradient", 64, 32, reference_gradient(64, 32) };
     pe_env *env = make(&e);
-    pe_ndf ndf = { PE_NDF_BECKMANN, 0.5, 0.5 };
+    pe_surface surface = { .ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL } };
     double before = 0, product = 0, square = 0;
 
     for (int k = 0; k < 4000; k++) {
         double n[3] = { sin(1e-4 * k), cos(1e-4 * k), 0 }, o[3] = { 0.3, 0.8, 0.1 }, got[3], exact[3], difference;
 
-        pe_monte_carlo(env, &ndf, plus_y, 4, n, o, got);
-        pe_exact(env, &ndf, plus_y, n, o, exact);
+        pe_monte_carlo(env, &surface, plus_y, 4, n, o, got);
+        pe_exact(env, &surface, plus_y, n, o, exact);
         difference = got[0] - exact[0];
         product += difference * before;
         square += difference * difference;

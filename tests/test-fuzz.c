@@ -35,7 +35,9 @@ static void seed_maps(seed *s, pe_pixel_type type)
 {
     char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
     float *rgb = reference_noise(16, 8, 1);
-    pe_bake_options options = { .normals = 12, .width = 8, .height = 4, .ndf = { PE_NDF_BECKMANN, 0.5, 0.5 } };
+    pe_bake_options options = {
+        .normals = 12, .width = 8, .height = 4, .surface.ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL }
+    };
     pe_env *env;
     pe_maps *maps = NULL;
 

@@ -62,9 +62,11 @@ static pe_env *noise(int width, int height)
     return env;
 }
 
-static const pe_bake_options small = {
-    .ndf = { PE_NDF_BECKMANN, 0.2, 0.07 }, .direction = { 1, 2, 3 }, .normals = 42, .width = 40, .height = 20
-};
+static const pe_bake_options small = { .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.07, NULL },
+                                       .direction = { 1, 2, 3 },
+                                       .normals = 42,
+                                       .width = 40,
+                                       .height = 20 };
 
 static void test_threads(pe_method method, pe_accuracy accuracy)
 {
@@ -105,10 +107,10 @@ static void test_round_trip(pe_method method, pe_pixel_type type)
     info = pe_maps_get_info(maps);
     again = pe_maps_get_info(back);
     ok(info->method == again->method && info->normals == again->normals && info->images == again->images &&
-           info->width == again->width && info->height == again->height && info->ndf.alpha_y == again->ndf.alpha_y &&
-           info->direction[2] == again->direction[2] && info->accuracy == again->accuracy &&
-           info->source_width == again->source_width && info->error_estimate == again->error_estimate &&
-           strcmp(info->source_name, again->source_name) == 0,
+           info->width == again->width && info->height == again->height &&
+           info->surface.ndf.alpha_y == again->surface.ndf.alpha_y && info->direction[2] == again->direction[2] &&
+           info->accuracy == again->accuracy && info->source_width == again->source_width &&
+           info->error_estimate == again->error_estimate && strcmp(info->source_name, again->source_name) == 0,
        "what the file says of itself is what was written");
     if (type == PE_PIXEL_FLOAT)
         ok(memcmp(pe_maps_image(maps, 0), pe_maps_image(back, 0),
@@ -266,7 +268,7 @@ static void test_options(void)
     options.normals = -1;
     refuse(options, "12");
     options = small;
-    options.ndf.alpha_x = 3;
+    options.surface.ndf.alpha_x = 3;
     refuse(options, "alpha");
     options = small;
     options.width = 1;

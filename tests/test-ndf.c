@@ -118,11 +118,11 @@ static double sampler_p(const pe_ndf *ndf)
 int main(void)
 {
     pe_error error;
-    pe_ndf bad = { PE_NDF_BECKMANN, 0, 0.1 };
+    pe_ndf bad = { PE_NDF_BECKMANN, 0, 0.1, NULL };
     double below[3] = { 0.6, 0, -0.8 };
 
     for (int k = 0; k < CASES; k++) {
-        pe_ndf ndf = { PE_NDF_BECKMANN, alphas[k][0], alphas[k][1] };
+        pe_ndf ndf = { PE_NDF_BECKMANN, alphas[k][0], alphas[k][1], NULL };
         double integral = integrate(&ndf), worst = difference_from_formula(&ndf), p = sampler_p(&ndf);
 
         ok(fabs(integral - 1) < 2e-4, "alpha %g, %g: integral of D cos = %.6f", ndf.alpha_x, ndf.alpha_y, integral);

@@ -31,7 +31,7 @@ static pe_maps *bake_as(const pe_env *env, pe_method method, pe_accuracy accurac
                         int width, int height)
 {
     pe_bake_options options = { .method = method,
-                                .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y },
+                                .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
                                 .width = width,
                                 .height = height,
                                 .accuracy = accuracy };
@@ -92,7 +92,7 @@ static void test_furnace(pe_method method, double alpha_x, double alpha_y, int w
 static void test_half_white(int k, int side, pe_accuracy accuracy)
 {
     int width = accuracy == PE_ACCURACY_FAST ? 512 : 64, height = width / 2;
-    pe_bake_options one = { .normals = 42, .width = 2, .height = 2, .ndf = { PE_NDF_BECKMANN, 1, 1 } };
+    pe_bake_options one = { .normals = 42, .width = 2, .height = 2, .surface.ndf = { PE_NDF_BECKMANN, 1, 1, NULL } };
     double n[3], below[3], worst = 0;
     pe_env *env = make_env(2, 2, reference_constant(2, 2, 0));
     pe_maps *maps;
@@ -120,7 +120,7 @@ static void test_half_white(int k, int side, pe_accuracy accuracy)
         pe_sample(maps, &modes[3], n, o, rgb);
         worst = fmax(worst, rgb[0]);
         if (accuracy == PE_ACCURACY_EXACT)
-            pe_exact(env, &pe_maps_get_info(maps)->ndf, plus_y, n, o, exact);
+            pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
         worst = fmax(worst, exact[0]);
     }
     ok(worst < LEAK_MAX, "half-white environment, %s: nothing leaks into normal %d%s (%.1e)",
@@ -225,7 +225,7 @@ static double error_of(const pe_env *env, const pe_maps *maps, const pe_sampling
 
         random_view(&state, 0.15, n, o);
         pe_sample(maps, mode, n, o, got);
-        pe_exact(env, &pe_maps_get_info(maps)->ndf, plus_y, n, o, exact);
+        pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             error2 += (got[c] - exact[c]) * (got[c] - exact[c]);
             norm2 += exact[c] * exact[c];
@@ -247,7 +247,7 @@ static void test_at_normals(const pe_env *env, const pe_maps *maps)
             random_view(&state, -1, ignored, o);
         while (!(fabs(pe_dot(n, o)) > 0.15));
         pe_sample(maps, &modes[k % 2 ? 0 : 3], n, o, got);
-        pe_exact(env, &pe_maps_get_info(maps)->ndf, plus_y, n, o, exact);
+        pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             error2 += (got[c] - exact[c]) * (got[c] - exact[c]);
             norm2 += exact[c] * exact[c];

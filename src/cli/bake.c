@@ -80,7 +80,7 @@ static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_
     pe_status status;
     pe_bake_options bake = {
         .method = (pe_method)settings->method,
-        .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1] },
+        .surface = { .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1], NULL } },
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
         .width = settings->size[0],

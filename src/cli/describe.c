@@ -26,10 +26,10 @@ void describe_maps(const pe_maps_info *info)
         printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
     printf("images     %d of %dx%d\n", info->images, info->width, info->height);
     printf("ndf        beckmann\n");
-    if (info->ndf.alpha_x == info->ndf.alpha_y)
-        printf("alpha      %g\n", info->ndf.alpha_x);
+    if (info->surface.ndf.alpha_x == info->surface.ndf.alpha_y)
+        printf("alpha      %g\n", info->surface.ndf.alpha_x);
     else
-        printf("alpha      %g along, %g across the brush\n", info->ndf.alpha_x, info->ndf.alpha_y);
+        printf("alpha      %g along, %g across the brush\n", info->surface.ndf.alpha_x, info->surface.ndf.alpha_y);
     printf("direction  %g %g %g\n", info->direction[0], info->direction[1], info->direction[2]);
     printf("source     %s, %dx%d\n", *info->source_name ? info->source_name : "(no name)", info->source_width,
            info->source_height);
@@ -39,7 +39,7 @@ void describe_maps(const pe_maps_info *info)
 
 void describe_maps_json(json *out, const pe_maps_info *info)
 {
-    const double alpha[2] = { info->ndf.alpha_x, info->ndf.alpha_y };
+    const double alpha[2] = { info->surface.ndf.alpha_x, info->surface.ndf.alpha_y };
     const double direction[3] = { info->direction[0], info->direction[1], info->direction[2] };
 
     json_integer(out, "format_version", info->format_version);

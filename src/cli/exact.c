@@ -25,7 +25,7 @@ enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels 
 
 typedef struct truth {
     const pe_env *env;
-    pe_ndf ndf;
+    pe_surface surface;
     double direction[3];
 } truth;
 
@@ -33,14 +33,14 @@ static void sum_up(const double n[3], const double o[3], const void *data, doubl
 {
     const truth *t = data;
 
-    pe_exact(t->env, &t->ndf, t->direction, n, o, rgb);
+    pe_exact(t->env, &t->surface, t->direction, n, o, rgb);
 }
 
 static int answer_lines(const exact_settings *settings, const pe_env *env)
 {
     const truth t = {
         env,
-        { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1] },
+        { .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1], NULL } },
         { settings->direction[0], settings->direction[1], settings->direction[2] },
     };
     const lines_job job = { "exact", settings->threads, LINES_PER_BLOCK, sum_up, &t };
