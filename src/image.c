@@ -47,6 +47,25 @@ pe_status pe_image_allocate(const char *name, long long width, long long height,
     return PE_OK;
 }
 
+/* A float in [0, 1] is off its step by 6e-8 at most, and other values soon miss a step by more. */
+static bool all_multiples(const pe_image *image, double levels)
+{
+    size_t count = 3 * (size_t)image->width * (size_t)image->height;
+
+    for (size_t k = 0; k < count; k++) {
+        double level = (double)image->rgb[k] * levels;
+
+        if (fabs(level - nearbyint(level)) > 1e-7 * levels)
+            return false;
+    }
+    return true;
+}
+
+double pe_image_step(const pe_image *image)
+{
+    return all_multiples(image, 255) ? 1.0 / 255 : all_multiples(image, 65535) ? 1.0 / 65535 : 0;
+}
+
 void pe_image_free(pe_image *image)
 {
     if (!image)
@@ -56,7 +75,11 @@ void pe_image_free(pe_image *image)
     *image = (pe_image){ 0 };
 }
 
-pe_status pe_image_read_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+typedef pe_status read_format(const unsigned char *bytes, size_t size, const char *name, pe_image *image,
+                              pe_error *error);
+
+static pe_status read_bytes(const void *bytes, size_t size, const char *name, read_format *png, pe_image *image,
+                            pe_error *error)
 {
     if (size == 0)
         return pe_fail(error, PE_ERROR_FORMAT, "%s: is empty", name);
@@ -65,11 +88,11 @@ pe_status pe_image_read_memory(const void *bytes, size_t size, const char *name,
     if (pe_hdr_detect(bytes, size))
         return pe_hdr_read(bytes, size, name, image, error);
     if (pe_png_detect(bytes, size))
-        return pe_png_read(bytes, size, name, image, error);
+        return png(bytes, size, name, image, error);
     return pe_fail(error, PE_ERROR_FORMAT, "%s: is neither OpenEXR, Radiance HDR nor PNG", name);
 }
 
-pe_status pe_image_read(const char *path, pe_image *image, pe_error *error)
+static pe_status read_path(const char *path, read_format *png, pe_image *image, pe_error *error)
 {
     unsigned char *bytes;
     size_t size;
@@ -77,7 +100,27 @@ pe_status pe_image_read(const char *path, pe_image *image, pe_error *error)
 
     if (status != PE_OK)
         return status;
-    status = pe_image_read_memory(bytes, size, path, image, error);
+    status = read_bytes(bytes, size, path, png, image, error);
     free(bytes);
     return status;
+}
+
+pe_status pe_image_read_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+{
+    return read_bytes(bytes, size, name, pe_png_read, image, error);
+}
+
+pe_status pe_image_read(const char *path, pe_image *image, pe_error *error)
+{
+    return read_path(path, pe_png_read, image, error);
+}
+
+pe_status pe_image_read_data_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+{
+    return read_bytes(bytes, size, name, pe_png_read_data, image, error);
+}
+
+pe_status pe_image_read_data(const char *path, pe_image *image, pe_error *error)
+{
+    return read_path(path, pe_png_read_data, image, error);
 }

@@ -10,10 +10,14 @@
 pe_status pe_image_allocate(const char *name, long long width, long long height, bool alpha, pe_image *image,
                             pe_error *error);
 
+/* The widest of the usual steps that all colour values are multiples of: of 8 bits, 1/255; of 16, 1/65535; or 0. */
+double pe_image_step(const pe_image *image);
+
 bool pe_hdr_detect(const unsigned char *bytes, size_t size);
 pe_status pe_hdr_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
 
 bool pe_png_detect(const unsigned char *bytes, size_t size);
 pe_status pe_png_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
+pe_status pe_png_read_data(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
 
 #endif

@@ -1,4 +1,5 @@
-/* image_png.c - PNG by libpng: 8 and 16 bit, sRGB or the file's own gamma made linear; 8-bit sRGB written. */
+/* image_png.c - PNG by libpng: 8 and 16 bit, sRGB or the file's own gamma made linear, or the values as they are stored;
+ * 8-bit sRGB written. */
 #include "image.h"
 #include "status.h"
 
@@ -48,7 +49,10 @@ static void on_read(png_structp png, png_bytep out, size_t size)
     s->at += size;
 }
 
-/* Encoded sample to linear light: 65536 entries serve 8 bits too, since libpng widens those to 16. */
+/* A table of what each of the 65536 samples means, which serves 8 bits too, since libpng widens those to 16. */
+typedef float *make_table(png_structp png, png_infop info);
+
+/* Encoded sample to linear light. */
 static float *make_linear_table(png_structp png, png_infop info)
 {
     float *table = malloc(65536 * sizeof *table);
@@ -59,6 +63,18 @@ static float *make_linear_table(png_structp png, png_infop info)
 
     for (int k = 0; table && k < 65536; k++)
         table[k] = (float)(own_gamma ? pow(k / 65535.0, 1 / gamma) : pe_srgb_decode(k / 65535.0));
+    return table;
+}
+
+/* Sample as it is: 0 to 1. */
+static float *make_plain_table(png_structp png, png_infop info)
+{
+    float *table = malloc(65536 * sizeof *table);
+
+    (void)png;
+    (void)info;
+    for (int k = 0; table && k < 65536; k++)
+        table[k] = (float)(k / 65535.0);
     return table;
 }
 
@@ -81,6 +97,7 @@ typedef struct reading {
     png_structp png;
     png_infop info;
     png_bytep *rows;
+    make_table *meaning;
     float *table;
 } reading;
 
@@ -88,7 +105,7 @@ static pe_status read_rows(reading *r, pe_image *image)
 {
     size_t stride, width = (size_t)image->width, height = (size_t)image->height;
 
-    r->table = make_linear_table(r->png, r->info);
+    r->table = r->meaning(r->png, r->info);
     stride = 8 * width;
     r->rows = malloc(height * (sizeof *r->rows + stride));
     if (!r->table || !r->rows)
@@ -127,9 +144,10 @@ static pe_status read_png(reading *r, pe_image *image)
     return read_rows(r, image);
 }
 
-pe_status pe_png_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+static pe_status read_bytes(const unsigned char *bytes, size_t size, const char *name, make_table *meaning,
+                            pe_image *image, pe_error *error)
 {
-    reading r = { .s = { .at = bytes, .end = bytes + size, .name = name, .error = error } };
+    reading r = { .s = { .at = bytes, .end = bytes + size, .name = name, .error = error }, .meaning = meaning };
     pe_status status;
 
     *image = (pe_image){ 0 };
@@ -142,6 +160,16 @@ pe_status pe_png_read(const unsigned char *bytes, size_t size, const char *name,
     if (status != PE_OK)
         pe_image_free(image);
     return status;
+}
+
+pe_status pe_png_read(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+{
+    return read_bytes(bytes, size, name, make_linear_table, image, error);
+}
+
+pe_status pe_png_read_data(const unsigned char *bytes, size_t size, const char *name, pe_image *image, pe_error *error)
+{
+    return read_bytes(bytes, size, name, make_plain_table, image, error);
 }
 
 static void on_write(png_structp png, png_bytep bytes, size_t size)

@@ -69,6 +69,10 @@ typedef struct pe_image {
 pe_status pe_image_read(const char *path, pe_image *image, pe_error *error);
 pe_status pe_image_read_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
 
+/* The same for data, which is not colour - heights, normals: the values of a PNG are those it stores, 0 to 1. */
+pe_status pe_image_read_data(const char *path, pe_image *image, pe_error *error);
+pe_status pe_image_read_data_memory(const void *bytes, size_t size, const char *name, pe_image *image, pe_error *error);
+
 /* Writes an 8-bit RGB PNG: linear values are clipped to [0, 1] and encoded as sRGB.  The file appears whole or not at
  * all: it is written beside its target and renamed. */
 pe_status pe_image_write_png(const char *path, const pe_image *image, pe_error *error);
@@ -154,6 +158,122 @@ typedef struct pe_surface {
 } pe_surface;
 
 pe_status pe_surface_check(const pe_surface *surface, pe_error *error);
+
+/* ---- measured surfaces ----------------------------------------------------------------------------------------
+ *
+ * A machined surface as an instrument measured it, or a map of it, is a picture of the surface seen from outside.  Its
+ * columns run along the tangent t, which is the brush direction; its rows run down along b.  A machined surface lies
+ * with its lay - the direction of its grooves - along the rows' length, so that the brush follows the grooves.
+ *
+ * SLOPES.  Where the surface's normal is h in the frame (t, b, n), its slopes are p = h.t / h.n and q = h.b / h.n: for
+ * heights z, p = -dz/dx and q = -dz/dy.  The share of the projected area whose slopes lie in dp dq is P(p, q) dp dq, and
+ * D(h) = P / (h.n)^4. */
+
+/* Heights and the distance of neighbouring texels in the same unit of length.  NaN: not measured. */
+typedef struct pe_heights {
+    int width, height;
+    double pitch;
+    double step;   /* by which the source rounds heights; 0 if that is not to be seen */
+    float *values; /* width * height, rows from the top */
+} pe_heights;
+
+#define PE_HEIGHTS_SIDE_MIN 8 /* texels; a smaller field has no slopes worth measuring */
+
+/* Reads grey heights: OpenEXR or PNG (16 bit, better than 8), a PNG's values as stored, its transparent texels not
+ * measured.  `unit` is the height that the value 1 - white, in a PNG - stands for, `pitch` the distance of texels in the
+ * same unit of length; both 0: as the file says, if pe_heights_write made it. */
+pe_status pe_heights_read(const char *path, double unit, double pitch, pe_heights *heights, pe_error *error);
+pe_status pe_heights_read_memory(const void *bytes, size_t size, const char *name, double unit, double pitch,
+                                 pe_heights *heights, pe_error *error);
+
+/* Writes an OpenEXR of float heights with its pitch.  The file appears whole or not at all. */
+pe_status pe_heights_write(const pe_heights *heights, const char *path, pe_error *error);
+
+void pe_heights_free(pe_heights *heights); /* frees what it holds, not the struct; NULL is allowed */
+
+typedef enum pe_machining {
+    PE_TURNED = 0, /* parabolic grooves of a round-nosed tool: slopes across even over +-feed / (2 radius) */
+    PE_MILLED,     /* grooves with straight flanks: two ridges, at slopes across of +-slope */
+    PE_BLASTED,    /* a Gaussian surface, the same in all directions: Beckmann */
+    PE_BRUSHED     /* a Gaussian surface, drawn out along x: Beckmann of two widths */
+} pe_machining;
+
+/* The field repeats itself.  Lengths in one unit, such as micrometres.  A Gaussian surface of root mean square height `roughness`, whose
+ * autocorrelation falls to 1/e over `length` along x and y, lies by itself (blasted, brushed) or over the grooves
+ * (turned, milled); its slopes are Beckmann's, alpha = 2 roughness / length.  0 means the default of the kind. */
+typedef struct pe_machining_options {
+    pe_machining kind;
+    int width, height; /* texels, PE_HEIGHTS_SIDE_MIN to 8192; 0: 1024 */
+    double pitch;      /* distance of texels; 0: 1 */
+    double feed;       /* turned, milled: from groove to groove, along y; rounded to fit into the field */
+    double radius;     /* turned: of the tool's nose */
+    double slope;      /* milled: of the flanks */
+    double roughness, length[2];
+    unsigned seed; /* the same seed, the same surface */
+} pe_machining_options;
+
+/* Fills the zeros of `options` with the defaults of the kind and checks the rest. */
+pe_status pe_machining_complete(pe_machining_options *options, pe_error *error);
+pe_status pe_heights_machine(const pe_machining_options *options, pe_heights *heights, pe_error *error);
+
+/* Slopes of all texels that have them. */
+typedef struct pe_slopes {
+    size_t count;
+    float *p, *q;   /* of each, `count` floats */
+    size_t missing; /* texels that have none: not measured, at an edge, or facing down */
+    double step;    /* by which the source rounds slopes; 0 if that is not to be seen */
+    double noise;   /* root mean square of what the source's rounding adds to each slope */
+} pe_slopes;
+
+typedef enum pe_edges {
+    PE_EDGES_OPEN = 0, /* texels nearer than three to an edge have no slope */
+    PE_EDGES_WRAP      /* the field repeats itself */
+} pe_edges;
+
+typedef enum pe_green { PE_GREEN_UP = 0 /* OpenGL */, PE_GREEN_DOWN /* DirectX */ } pe_green;
+
+/* By the seven-point formula of [ISO 25178-2]. */
+pe_status pe_slopes_of_heights(const pe_heights *heights, pe_edges edges, pe_slopes *slopes, pe_error *error);
+
+/* Of a tangent-space normal map as pe_image_read_data reads it: 2 rgb - 1 is the normal, red along the columns, green up
+ * or down, blue out of the surface.  `name` is used in messages only. */
+pe_status pe_slopes_of_normals(const pe_image *image, const char *name, pe_green green, pe_slopes *slopes,
+                               pe_error *error);
+
+void pe_slopes_free(pe_slopes *slopes); /* frees what it holds, not the struct; NULL is allowed */
+
+typedef struct pe_slope_statistics {
+    double mean[2];  /* of p and q: the tilt */
+    double rms[2];   /* about the mean */
+    double alpha[2]; /* of the Beckmann distribution of the same rms slopes: sqrt 2 rms */
+    double steepest; /* the greatest slope hypot(p, q), the mean left out */
+} pe_slope_statistics;
+
+void pe_slopes_measure(const pe_slopes *slopes, pe_slope_statistics *statistics);
+
+/* Takes the mean slope off: the part is levelled. */
+void pe_slopes_level(pe_slopes *slopes);
+
+/* P(p, q) in cells: cell (i, j) is centred at p = ((2i + 1) / width - 1) range[0], q likewise with j and range[1]. */
+typedef struct pe_slope_density {
+    int width, height;
+    double range[2]; /* the cells reach from -range to range */
+    float *values;   /* per dp dq, rows of equal q; the integral over the cells is 1 */
+    double beyond;   /* the share of the area outside the range, which is left out */
+} pe_slope_density;
+
+/* A struct of zeros means the defaults. */
+typedef struct pe_density_options {
+    double range;  /* both axes; 0: on each, what holds all but 1/10000 of the area */
+    double smooth; /* standard deviation, in slope, of the Gaussian that the density is blurred with; 0: none */
+} pe_density_options;
+
+/* Cells are 1/64 of the range, but not below 0.0005 nor above 0.0025, and at most 1024 along an axis.  A slope counts
+ * evenly over the width of one cell around it, or of the source's own step where that is wider. */
+pe_status pe_slopes_density(const pe_slopes *slopes, const pe_density_options *options, pe_slope_density *density,
+                            pe_error *error);
+
+void pe_slope_density_free(pe_slope_density *density); /* frees what it holds, not the struct; NULL is allowed */
 
 /* ---- the truth ---------------------------------------------------------------------------------------------- */
 

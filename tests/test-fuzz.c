@@ -7,6 +7,7 @@
 #include "reference.h"
 #include "tap.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -92,6 +93,20 @@ static void seed_hdr(seed *s)
     s->size = (size_t)(at - s->bytes);
 }
 
+/* Heights with their pitch, one of them not measured. */
+static void seed_heights(seed *s)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(9, 8, 3);
+    pe_heights heights = { .width = 9, .height = 8, .pitch = 0.5, .values = rgb };
+
+    close(mkstemp(path));
+    rgb[40] = NAN;
+    need(pe_heights_write(&heights, path, NULL) == PE_OK, "cannot write heights");
+    load_file(path, s);
+    free(rgb);
+}
+
 /* One of: a flipped bit, a random byte, a byte of great or small value, a cut, a block copied elsewhere. */
 static void damage(unsigned char *bytes, size_t *size, unsigned *state)
 {
@@ -121,6 +136,30 @@ static void damage(unsigned char *bytes, size_t *size, unsigned *state)
     }
 }
 
+/* 1 if the bytes as heights or normals end in slopes or in one sentence. */
+static int measures_or_says(const unsigned char *bytes, size_t size)
+{
+    pe_heights heights;
+    pe_slopes slopes;
+    pe_image image;
+    pe_error error = { PE_OK, "" };
+    int sound = 1;
+
+    if (pe_heights_read_memory(bytes, size, "fuzz", 1, 1, &heights, &error) == PE_OK) {
+        if (pe_slopes_of_heights(&heights, PE_EDGES_WRAP, &slopes, &error) == PE_OK)
+            pe_slopes_free(&slopes);
+        pe_heights_free(&heights);
+    } else {
+        sound &= error.message[0] && !strchr(error.message, '\n');
+    }
+    if (pe_image_read_data_memory(bytes, size, "fuzz", &image, &error) == PE_OK) {
+        if (pe_slopes_of_normals(&image, "fuzz", PE_GREEN_UP, &slopes, &error) == PE_OK)
+            pe_slopes_free(&slopes);
+        pe_image_free(&image);
+    }
+    return sound;
+}
+
 /* 1 if loading the bytes in every way ends in success or in one sentence. */
 static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
 {
@@ -148,7 +187,7 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
         sound &= error.message[0] && !strchr(error.message, '\n');
     }
     pe_maps_detect(bytes, size);
-    return sound;
+    return sound && measures_or_says(bytes, size);
 }
 
 static void test_seed(const seed *s)
@@ -172,13 +211,16 @@ static void test_seed(const seed *s)
 
 int main(void)
 {
-    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" }, { .name = "HDR" } };
+    static seed seeds[] = {
+        { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" }, { .name = "HDR" }, { .name = "heights" }
+    };
 
     seed_maps(&seeds[0], PE_PIXEL_HALF);
     seed_maps(&seeds[1], PE_PIXEL_FLOAT);
     seed_png(&seeds[2]);
     seed_hdr(&seeds[3]);
-    for (int k = 0; k < 4; k++)
+    seed_heights(&seeds[4]);
+    for (int k = 0; k < 5; k++)
         test_seed(&seeds[k]);
     return done_testing();
 }
