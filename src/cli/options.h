@@ -10,6 +10,8 @@ typedef enum cli_type {
     CLI_INTEGER, /* 42; int */
     CLI_NUMBER,  /* 0.5; double */
     CLI_PAIR,    /* A, which stands for A,A, or A,B; double[2] */
+    CLI_LENGTH,  /* 1.5um: a number and nm, um, mm, cm, m or in, um if none; double, in um */
+    CLI_LENGTHS, /* A, which stands for A,A, or A,B; double[2] */
     CLI_VECTOR,  /* X,Y,Z, not all zero; double[3] */
     CLI_SIZE,    /* 400x200; int[2] */
     CLI_CHOICE,  /* one of `choices`; int */

@@ -60,11 +60,33 @@ static int read_number(const char **text, double *value)
     return 1;
 }
 
-/* Reads `count` numbers with `separator` between them and checks each.  The number read, 0 if the text is not that. */
-static int read_numbers(const char *text, char separator, int count, double *values)
+/* The same for a number and a unit of length, um if there is none; the value is in um. */
+static int read_length(const char **text, double *value)
+{
+    static const struct {
+        const char *name;
+        double um;
+    } units[] = { { "nm", 1e-3 }, { "um", 1 },   { "\u00b5m", 1 }, { "\u03bcm", 1 },
+                  { "mm", 1e3 },  { "cm", 1e4 }, { "m", 1e6 },     { "in", 25400 } };
+
+    if (!read_number(text, value))
+        return 0;
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (strncmp(*text, units[i].name, strlen(units[i].name)) == 0) {
+            *text += strlen(units[i].name);
+            *value *= units[i].um;
+            break;
+        }
+    return isfinite(*value);
+}
+
+typedef int read_value(const char **text, double *value);
+
+/* Reads `count` values with `separator` between them.  How many were read, 0 if the text is not that. */
+static int read_values(const char *text, read_value *read, char separator, int count, double *values)
 {
     for (int i = 0; i < count; i++) {
-        if (!read_number(&text, &values[i]))
+        if (!read(&text, &values[i]))
             return 0;
         if (*text == '\0')
             return i + 1;
@@ -93,7 +115,7 @@ static int store_number(const cli_command *command, const cli_option *option, co
 {
     double value;
 
-    if (read_numbers(text, ',', 1, &value) != 1)
+    if (read_values(text, read_number, ',', 1, &value) != 1)
         return refuse(command, option, text, "a number is wanted");
     if (!in_range(option, value))
         return refuse_range(command, option, text);
@@ -101,13 +123,27 @@ static int store_number(const cli_command *command, const cli_option *option, co
     return CLI_SUCCESS;
 }
 
-static int store_pair(const cli_command *command, const cli_option *option, const char *text, double target[2])
+static int store_length(const cli_command *command, const cli_option *option, const char *text, double *target)
+{
+    double value;
+
+    if (read_values(text, read_length, ',', 1, &value) != 1)
+        return refuse(command, option, text, "a length is wanted, as in 1.5um (nm, um, mm, cm, m, in)");
+    if (!in_range(option, value))
+        return refuse_range(command, option, text);
+    *target = value;
+    return CLI_SUCCESS;
+}
+
+/* One value, which stands for two, or two. */
+static int store_two(const cli_command *command, const cli_option *option, const char *text, read_value *read,
+                     const char *wanted, double target[2])
 {
     double values[2];
-    int count = read_numbers(text, ',', 2, values);
+    int count = read_values(text, read, ',', 2, values);
 
     if (count == 0)
-        return refuse(command, option, text, "one number is wanted, or two as in %g,%g", 0.1, 0.03);
+        return refuse(command, option, text, "%s", wanted);
     if (count == 1)
         values[1] = values[0];
     for (int i = 0; i < 2; i++)
@@ -121,7 +157,7 @@ static int store_vector(const cli_command *command, const cli_option *option, co
 {
     double values[3];
 
-    if (read_numbers(text, ',', 3, values) != 3)
+    if (read_values(text, read_number, ',', 3, values) != 3)
         return refuse(command, option, text, "three numbers are wanted, as in 0,1,0");
     if (values[0] == 0 && values[1] == 0 && values[2] == 0)
         return refuse(command, option, text, "the zero vector has no direction");
@@ -177,7 +213,11 @@ int cli_store(const cli_command *command, const cli_option *option, const char *
     case CLI_NUMBER:
         return store_number(command, option, text, target);
     case CLI_PAIR:
-        return store_pair(command, option, text, target);
+        return store_two(command, option, text, read_number, "one number is wanted, or two as in 0.1,0.03", target);
+    case CLI_LENGTH:
+        return store_length(command, option, text, target);
+    case CLI_LENGTHS:
+        return store_two(command, option, text, read_length, "one length is wanted, or two as in 40um,8um", target);
     case CLI_VECTOR:
         return store_vector(command, option, text, target);
     case CLI_SIZE:
