@@ -1,4 +1,4 @@
-/* surface.c - `prefenv surface`: the height field of a machined surface, for 'prefenv ndf' to measure. */
+/* machining.c - `prefenv surface`: the height field of a machined surface, for 'prefenv ndf' to measure. */
 #include "cli.h"
 #include "commands.h"
 #include "interrupt.h"
