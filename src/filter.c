@@ -6,32 +6,15 @@
  *     D(h) ~ (1 / cos^2)^2 exp(-(h_x^2 / ax^2 + h_y^2 / ay^2) / h_z^2)                           [Motegi Eq. 6]
  *
  * so a weight costs one division and one exponential, no square root and no trigonometry; the factor 1 / (pi ax ay)
- * cancels in the quotient.  The exponential is 2^-e = 2^k 2^f with k whole and |f| <= 1/2, 2^f by the polynomial of
- * degree 6 through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8).  Arithmetic is on vectors of
- * 16 floats of GCC's vector extension, which become AVX-512, AVX2 or SSE2 with the same bits: every lane sums its own
- * lights, and contraction is off. */
+ * cancels in the quotient. */
 #include "filter.h"
 
+#include "lanes.h"
 #include "status.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define LANES 16
-
-/* Vectors never cross a function that is not inlined, so how they would be passed does not matter. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-typedef float floats __attribute__((vector_size(4 * LANES)));
-typedef int ints __attribute__((vector_size(4 * LANES)));
-
-/* ThreadSanitizer starts after the resolvers of target_clones run, and crashes in them. */
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(PE_NO_TARGET_CLONES)
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define CLONES
-#endif
 
 /* ---- clouds ---- */
 
@@ -258,32 +241,9 @@ typedef struct lane_sums {
     floats weight, r, g, b;
 } lane_sums;
 
-static inline __attribute__((always_inline)) floats load(const float *from)
+INLINE void exp2_negative(floats *e)
 {
-    floats v;
-
-    memcpy(&v, from, sizeof v);
-    return v;
-}
-
-/* e becomes 2^-e for 0 <= e <= cutoff, 0 beyond. */
-static inline __attribute__((always_inline)) void exp2_negative(floats *e)
-{
-    const float cutoff = (float)(PE_LOBE_CUTOFF * M_LOG2E);
-    const float round_to_whole = 12582912.0f; /* 1.5 * 2^23: adding it leaves the whole part in the low bits */
-    ints inside = *e <= cutoff;
-    floats near = (floats)((ints)*e & inside);
-    floats shifted = round_to_whole - near;
-    floats f = -near - (shifted - round_to_whole);
-    ints k = (ints)shifted << 23;
-    floats p = 0.000154531634f * f + 0.00133908633f;
-
-    p = p * f + 0.00961808302f;
-    p = p * f + 0.0555035695f;
-    p = p * f + 0.240226507f;
-    p = p * f + 0.693147182f;
-    p = p * f + 1.0f;
-    *e = (floats)(((ints)p + k) & inside);
+    exp2_of_negative(e, (float)(PE_LOBE_CUTOFF * M_LOG2E));
 }
 
 /* Adds one block's lights, seen from o, to the sums.  ax, ay: log2(e) / alpha^2 along t and b. */
