@@ -2,6 +2,7 @@
  *
  * A texel w of the image that n_k and -n_k share belongs to the side it lies on, n = +-n_k.  The viewer who sees w in a
  * mirror of normal n is o = reflect(w, n): in the tangent frame of n, with w = (x, y, z), o = (-x, -y, z). */
+#include "baseline.h"
 #include "cluster.h"
 #include "estimate.h"
 #include "filter.h"
@@ -30,7 +31,6 @@ typedef struct job {
     pe_maps *maps;
     int image;
     side sides[2];
-    unsigned char *row_done; /* baseline: memory sufficed for this row */
 } job;
 
 /* ---- points ---- */
@@ -126,39 +126,16 @@ static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *e
 
 /* ---- baseline ---- */
 
-/* Each texel w is seen head on: n = o = w, so each has a frame and lights of its own. */
-static void filter_baseline_row(size_t y, void *data)
+static pe_status bake_baseline(const job *j, int threads, const pe_report *report, pe_error *error)
 {
-    const job *j = data;
-    pe_lights lights;
+    pe_head_on *head_on;
+    pe_status status =
+        pe_head_on_make(j->cloud, &j->maps->info.surface, j->maps->info.direction, j->lobe_reach, &head_on, error);
 
-    if (pe_lights_allocate(j->cloud, &lights, NULL) != PE_OK)
-        return;
-    for (int x = 0; x < j->maps->info.width; x++) {
-        double world[3], sums[4];
-
-        pe_grid_direction(&j->maps->grid, x, (int)y, world);
-        pe_filter_head_on(&j->maps->info.surface, j->cloud, j->maps->info.direction, world, j->lobe_reach, &lights,
-                          sums);
-        store(j, sums, world, 1, row_of(j, y) + 3 * x);
-    }
-    pe_lights_free(&lights);
-    j->row_done[y] = 1;
-}
-
-static pe_status bake_baseline(job *j, int threads, pe_report *report, pe_error *error)
-{
-    int rows = j->maps->info.height;
-    pe_status status;
-
-    j->row_done = calloc((size_t)rows, sizeof *j->row_done);
-    if (!j->row_done)
-        return pe_fail_memory(error, "a table of rows");
-    status = pe_parallel_for((size_t)rows, threads, filter_baseline_row, j, report);
-    for (int y = 0; status == PE_OK && y < rows; y++)
-        if (!j->row_done[y])
-            status = pe_fail_memory(error, "a row of lights");
-    free(j->row_done);
+    if (status != PE_OK)
+        return status;
+    status = pe_baseline_fill(head_on, j->maps, threads, report, error);
+    pe_head_on_free(head_on);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* estimate.c - how far baked maps are from the exact ones: some texels done again with every light. */
 #include "estimate.h"
 
+#include "baseline.h"
 #include "filter.h"
 #include "parallel.h"
 #include "sequence.h"
@@ -17,6 +18,7 @@
 typedef struct trial {
     const pe_cloud *cloud;
     const pe_maps *maps;
+    const pe_head_on *head_on; /* NULL for maps of representative normals */
     int index;
     double error2, norm2;
     int failed;
@@ -74,18 +76,18 @@ static void try_normal(trial *t, pe_lights *lights)
     try_texels(t, vertex / 2, &frame, lights);
 }
 
-/* Baseline texels are seen head on, so each has its own frame. */
-static void try_baseline(trial *t, pe_lights *lights)
+/* Of a baseline map, each texel has its own frame. */
+static void try_baseline(trial *t)
 {
-    for (int k = 0; k < POINTS_PER_FRAME / FRAMES; k++) {
-        double world[3], sums[4];
+    for (int k = 0; k < POINTS_PER_FRAME / FRAMES && !t->failed; k++) {
+        double world[1][3], sums[1][4];
         int x, y;
 
         place_texel(t, k, &x, &y);
-        pe_grid_direction(&t->maps->grid, x, y, world);
-        pe_filter_head_on(&t->maps->info.surface, t->cloud, t->maps->info.direction, world,
-                          pe_lobe_reach(&t->maps->info.surface, PE_LOBE_CUTOFF), lights, sums);
-        compare(t, world, 1, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums);
+        pe_grid_direction(&t->maps->grid, x, y, world[0]);
+        t->failed = pe_head_on_filter(t->head_on, (const double(*)[3])world, 1, sums, NULL) != PE_OK;
+        if (!t->failed)
+            compare(t, world[0], 1, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -94,36 +96,55 @@ static void run_trial(size_t index, void *data)
     trial *t = (trial *)data + index;
     pe_lights lights;
 
+    if (!t->maps->geodesic) {
+        try_baseline(t);
+        return;
+    }
     t->failed = pe_lights_allocate(t->cloud, &lights, NULL) != PE_OK;
     if (t->failed)
         return;
-    if (t->maps->geodesic)
-        try_normal(t, &lights);
-    else
-        try_baseline(t, &lights);
+    try_normal(t, &lights);
     pe_lights_free(&lights);
+}
+
+static double run_trials(trial trials[FRAMES], int threads, int *failed)
+{
+    double error2 = 0, norm2 = 0;
+
+    pe_parallel_for(FRAMES, threads, run_trial, trials, NULL);
+    for (int k = 0; k < FRAMES; k++) {
+        *failed |= trials[k].failed;
+        error2 += trials[k].error2;
+        norm2 += trials[k].norm2;
+    }
+    return norm2 > 0 ? sqrt(error2 / norm2) : 0;
 }
 
 pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, int threads, double *estimate, pe_error *error)
 {
+    const pe_surface *surface = &maps->info.surface;
     trial trials[FRAMES];
+    pe_head_on *head_on = NULL;
     pe_cloud cloud;
-    double error2 = 0, norm2 = 0;
+    double found;
+    int failed = 0;
     pe_status status = pe_cloud_from_env(env, &cloud, error);
 
     if (status != PE_OK)
         return status;
-    for (int k = 0; k < FRAMES; k++)
-        trials[k] = (trial){ .cloud = &cloud, .maps = maps, .index = k };
-    pe_parallel_for(FRAMES, threads, run_trial, trials, NULL);
-    for (int k = 0; k < FRAMES; k++) {
-        if (trials[k].failed)
+    if (!maps->geodesic)
+        status = pe_head_on_make(&cloud, surface, maps->info.direction, pe_lobe_reach(surface, PE_LOBE_CUTOFF),
+                                 &head_on, error);
+    if (status == PE_OK) {
+        for (int k = 0; k < FRAMES; k++)
+            trials[k] = (trial){ .cloud = &cloud, .maps = maps, .head_on = head_on, .index = k };
+        found = run_trials(trials, threads, &failed);
+        if (failed)
             status = pe_fail_memory(error, "the estimate of the error");
-        error2 += trials[k].error2;
-        norm2 += trials[k].norm2;
+        else
+            *estimate = found;
     }
+    pe_head_on_free(head_on);
     pe_cloud_free(&cloud);
-    if (status == PE_OK)
-        *estimate = norm2 > 0 ? sqrt(error2 / norm2) : 0;
     return status;
 }

@@ -328,19 +328,6 @@ void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
     o[2] = (float)w[2];
 }
 
-void pe_filter_head_on(const pe_surface *surface, const pe_cloud *cloud, const double direction[3],
-                       const double world[3], double lobe_reach, pe_lights *lights, double sums[4])
-{
-    static const float head_on[1][3] = { { 0, 0, 1 } };
-    double one[1][4];
-    pe_frame frame;
-
-    pe_frame_make(world, direction, &frame);
-    pe_lights_fill(cloud, &frame, lobe_reach, lights);
-    pe_filter_points(surface, lights, head_on, 1, one);
-    memcpy(sums, one[0], sizeof one[0]);
-}
-
 void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
                         double cos_o, double rgb[3])
 {

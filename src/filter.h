@@ -79,11 +79,6 @@ void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const 
  * o = (-x, -y, z). */
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3]);
 
-/* pe_filter_points for the one viewer who sees the unit direction `world` head on, n = o = world.  `lights` is refilled
- * for that normal; `direction` is the brush's. */
-void pe_filter_head_on(const pe_surface *surface, const pe_cloud *cloud, const double direction[3],
-                       const double world[3], double lobe_reach, pe_lights *lights, double sums[4]);
-
 /* What the viewer sees who would see `world` in a mirror whose normal is cos_o from it: the quotient of Eq. 5; where no
  * light has weight, what a mirror shows. */
 void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
