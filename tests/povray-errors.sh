@@ -50,13 +50,13 @@ wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds ma
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'
 wrong 'maps with a direction' 'exr "maps.exr" direction x' 'This file holds maps'
 wrong 'a plain environment alone' 'hdr "chart.hdr"' \
-    'This file is a plain environment: bake it first \(prefenv bake\), or give both'
-wrong 'a plain environment without samples' 'hdr "chart.hdr" roughness 0.1' \
-    'This file is a plain environment: .*samples'
+    'This file is a plain environment: give the roughness of the surface'
 wrong 'a plain environment without roughness' 'hdr "chart.hdr" samples 4' \
     'This file is a plain environment: .*roughness'
-wrong 'a plain environment with a method' 'hdr "chart.hdr" roughness 0.1 samples 4 method 2' \
-    'method and exponent say how prefiltered maps are looked up'
+wrong 'a plain environment with samples and a method' 'hdr "chart.hdr" roughness 0.1 samples 4 method 2' \
+    'method and exponent say how prefiltered maps are looked up, but samples'
+wrong 'three roughnesses' 'hdr "chart.hdr" roughness <0.1, 0.2, 0.3>' 'roughness takes one or two values, .* but 3 were'
+wrong 'a roughness out of range in a vector' 'hdr "chart.hdr" roughness <0.1, 0>' 'roughness must lie .* 0.1, 0 was'
 wrong 'a stretched environment' 'exr "maps.exr" scale <1, 2, 1>' \
     'An environment can be rotated, mirrored and scaled evenly'
 wrong 'an unknown word' 'exr "maps.exr" gloss 3' ''
