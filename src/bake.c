@@ -148,7 +148,10 @@ static pe_status bake_baseline(const job *j, int threads, const pe_report *repor
 
 static double cluster_count(const pe_ndf *ndf)
 {
-    return CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (ndf->alpha_x * ndf->alpha_y);
+    double width[2];
+
+    pe_ndf_fineness(ndf, width);
+    return CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (width[0] * width[1]);
 }
 
 /* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their
@@ -193,6 +196,22 @@ static pe_accuracy choose_accuracy(pe_accuracy asked, const pe_env *env)
     return (size_t)env->width * (size_t)env->height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
 }
 
+static void choose_alphas(pe_maps_info *info)
+{
+    pe_ndf *ndf = &info->surface.ndf;
+
+    if (ndf->kind == PE_NDF_TABLE && ndf->table) {
+        double alpha[2];
+
+        pe_ndf_table_alpha(ndf->table, alpha);
+        ndf->alpha_x = alpha[0];
+        ndf->alpha_y = alpha[1];
+        info->ndf_name = pe_ndf_table_name(ndf->table);
+    } else if (ndf->alpha_x == 0 && ndf->alpha_y == 0) {
+        ndf->alpha_x = ndf->alpha_y = 0.1;
+    }
+}
+
 static void choose_info(const pe_env *env, const pe_bake_options *options, pe_maps_info *info)
 {
     static const double plus_y[3] = { 0, 1, 0 };
@@ -207,8 +226,7 @@ static void choose_info(const pe_env *env, const pe_bake_options *options, pe_ma
                             .source_width = env->width,
                             .source_height = env->height,
                             .accuracy = choose_accuracy(options->accuracy, env) };
-    if (info->surface.ndf.alpha_x == 0 && info->surface.ndf.alpha_y == 0)
-        info->surface.ndf.alpha_x = info->surface.ndf.alpha_y = 0.1;
+    choose_alphas(info);
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
 }
 
@@ -219,10 +237,13 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **o
     pe_status status;
 
     choose_info(env, options, &info);
-    status = pe_maps_create(&info, &maps, error);
+    status = pe_surface_check(&info.surface, error);
+    if (status == PE_OK)
+        status = pe_maps_create(&info, &maps, error);
     if (status != PE_OK)
         return status;
     status = fill_maps(env, maps, options, error);
+    maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
     if (status == PE_OK)
         *out = maps;
     else

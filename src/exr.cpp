@@ -17,6 +17,7 @@ extern "C" {
 #include <ImfIO.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfMultiPartOutputFile.h>
+#include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
@@ -279,6 +280,41 @@ std::vector<unsigned char> encode(const pe_exr_part *parts, int count, int width
     return std::move(output.bytes);
 }
 
+std::vector<unsigned char> encode_gray(const float *values, int width, int height, const pe_attribute *attributes,
+                                       size_t attribute_count)
+{
+    const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(width - 1, height - 1));
+    MemoryOutput output;
+    Imf::Header header(width, height);
+    Imf::FrameBuffer frame;
+
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    for (size_t k = 0; k < attribute_count; k++)
+        set_attribute(header, attributes[k]);
+    frame.insert(
+        "Y", Imf::Slice::Make(Imf::FLOAT, values, window, sizeof(float), sizeof(float) * static_cast<size_t>(width)));
+    {
+        Imf::OutputFile file(output, header, 0);
+        file.setFrameBuffer(frame);
+        file.writePixels(height);
+    } /* the file's destructor writes the offset table */
+    return std::move(output.bytes);
+}
+
+/* Bytes that free() releases. */
+pe_status hand_out(const std::vector<unsigned char> &encoded, unsigned char **bytes, size_t *size)
+{
+    unsigned char *copy = static_cast<unsigned char *>(std::malloc(encoded.size()));
+
+    if (!copy)
+        throw std::bad_alloc();
+    std::memcpy(copy, encoded.data(), encoded.size());
+    *bytes = copy;
+    *size = encoded.size();
+    return PE_OK;
+}
+
 } // namespace
 
 struct pe_exr_file {
@@ -314,16 +350,15 @@ pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char 
 pe_status pe_exr_encode(const pe_exr_part *parts, int count, int width, int height, pe_pixel_type type,
                         unsigned char **bytes, size_t *size, pe_error *error)
 {
-    return guarded("OpenEXR output", error, [&] {
-        const std::vector<unsigned char> encoded = encode(parts, count, width, height, type);
-        unsigned char *copy = static_cast<unsigned char *>(std::malloc(encoded.size()));
+    return guarded("OpenEXR output", error,
+                   [&] { return hand_out(encode(parts, count, width, height, type), bytes, size); });
+}
 
-        if (!copy)
-            throw std::bad_alloc();
-        std::memcpy(copy, encoded.data(), encoded.size());
-        *bytes = copy;
-        *size = encoded.size();
-        return PE_OK;
+pe_status pe_exr_encode_gray(const float *values, int width, int height, const pe_attribute *attributes,
+                             size_t attribute_count, unsigned char **bytes, size_t *size, pe_error *error)
+{
+    return guarded("OpenEXR output", error, [&] {
+        return hand_out(encode_gray(values, width, height, attributes, attribute_count), bytes, size);
     });
 }
 

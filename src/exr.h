@@ -50,6 +50,10 @@ typedef struct pe_exr_part {
 pe_status pe_exr_encode(const pe_exr_part *parts, int count, int width, int height, pe_pixel_type type,
                         unsigned char **bytes, size_t *size, pe_error *error);
 
+/* The same of one picture without a name, of floats in one channel Y. */
+pe_status pe_exr_encode_gray(const float *values, int width, int height, const pe_attribute *attributes,
+                             size_t attribute_count, unsigned char **bytes, size_t *size, pe_error *error);
+
 /* An open file of parts.  Strings that it hands out live as long as it. */
 typedef struct pe_exr_file pe_exr_file;
 

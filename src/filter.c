@@ -3,10 +3,13 @@
  * In the tangent frame of the normal, with the unnormalised half vector h = o + w (o to the viewer, w to the light):
  *
  *     tan^2(theta_h) = (h_x^2 + h_y^2) / h_z^2,   1 / cos^2(theta_h) = 1 + tan^2(theta_h)
- *     D(h) ~ (1 / cos^2)^2 exp(-(h_x^2 / ax^2 + h_y^2 / ay^2) / h_z^2)                           [Motegi Eq. 6]
+ *     Beckmann    D ~ (1 / cos^2)^2 exp(-s),   s = (h_x^2 / ax^2 + h_y^2 / ay^2) / h_z^2       [Motegi Eq. 6]
+ *     GGX         D ~ ((1 / cos^2) / (1 + s))^2
+ *     Phong       D ~ (1 / cos^2) exp(-s log(1 + tan^2) / tan^2)
+ *     table       D = (1 / cos^2)^2 P(h_x / h_z, h_y / h_z)
  *
- * so a weight costs one division and one exponential, no square root and no trigonometry; the factor 1 / (pi ax ay)
- * cancels in the quotient. */
+ * (ndf.c), so a weight costs a division or two and one exponential, no square root and no trigonometry; the factor
+ * 1 / (pi ax ay) cancels in the quotient. */
 #include "filter.h"
 
 #include "lanes.h"
@@ -232,10 +235,39 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_re
 
 double pe_lobe_reach(const pe_surface *surface, double limit)
 {
-    return 2 * atan(fmax(surface->ndf.alpha_x, surface->ndf.alpha_y) * sqrt(limit));
+    return 2 * atan(pe_ndf_reach(&surface->ndf, limit));
 }
 
 /* ---- the hot loop ---- */
+
+/* An NDF in single precision. */
+typedef struct lobe {
+    float x, y; /* what p^2 and q^2 are multiplied with: 1 / alpha^2, times log2(e) before an exponential */
+    const pe_ndf_table *table;
+    float scale_x, scale_y, offset_x, offset_y; /* from slopes to places in the table */
+} lobe;
+
+static lobe make_lobe(const pe_ndf *ndf)
+{
+    double unit = ndf->kind == PE_NDF_GGX ? 1 : M_LOG2E;
+    lobe l = { .table = ndf->table };
+
+    if (ndf->kind == PE_NDF_TABLE) {
+        l.scale_x = (float)(1 / ndf->table->p_step);
+        l.scale_y = (float)(1 / ndf->table->q_step);
+        l.offset_x = (float)(0.5 - ndf->table->p_min / ndf->table->p_step);
+        l.offset_y = (float)(0.5 - ndf->table->q_min / ndf->table->q_step);
+    } else {
+        l.x = (float)(unit / (ndf->alpha_x * ndf->alpha_x));
+        l.y = (float)(unit / (ndf->alpha_y * ndf->alpha_y));
+    }
+    return l;
+}
+
+/* The sum of a viewer's direction and of each lane's light's. */
+typedef struct half {
+    floats x, y, z;
+} half;
 
 typedef struct lane_sums {
     floats weight, r, g, b;
@@ -246,23 +278,140 @@ INLINE void exp2_negative(floats *e)
     exp2_of_negative(e, (float)(PE_LOBE_CUTOFF * M_LOG2E));
 }
 
-/* Adds one block's lights, seen from o, to the sums.  ax, ay: log2(e) / alpha^2 along t and b. */
-static inline __attribute__((always_inline)) void beckmann_block(const float *values, const float o[3], float ax,
-                                                                 float ay, lane_sums *sums)
+/* t becomes log(1 + t) / t, t >= 0.  With 1 + t = 2^k (1 + f), -0.3 < f < 0.42, that is (k log 2 + f g(f)) / t, and
+ * g(t) where k = 0; g(f) = log(1 + f) / f by the polynomial of degree 8 through nine Chebyshev points (relative error
+ * below 3e-8). */
+INLINE void log1p_quotient(floats *t)
+{
+    ints bits = (ints)(1.0f + *t);
+    ints k = (bits - 0x3f3504f3) >> 23; /* the bits of 2^-1/2 */
+    ints small = k == 0;
+    floats m = (floats)(bits - (k << 23)) - 1.0f;
+    floats f = (floats)(((ints)*t & small) | ((ints)m & ~small));
+    floats divisor = (floats)(((ints)*t & ~small) | ((ints)(f * 0.0f + 1.0f) & small));
+    floats g = 0.0853331313f * f - 0.142692582f, large;
+
+    g = g * f + 0.149774013f;
+    g = g * f - 0.165779929f;
+    g = g * f + 0.199559334f;
+    g = g * f - 0.250013522f;
+    g = g * f + 0.333341933f;
+    g = g * f - 0.499999964f;
+    g = g * f + 0.999999974f;
+    large = __builtin_convertvector(k, floats) * 0.693147182f + f * g;
+    *t = (floats)(((ints)g & small) | ((ints)large & ~small)) / divisor;
+}
+
+INLINE void beckmann(const lobe *l, const half *h, floats *d)
+{
+    floats inverse = 1.0f / (h->z * h->z);
+    floats xx = h->x * h->x, yy = h->y * h->y;
+    floats cos2_inverse = 1.0f + (xx + yy) * inverse;
+    floats e = (xx * l->x + yy * l->y) * inverse;
+
+    exp2_negative(&e);
+    *d = e * (cos2_inverse * cos2_inverse);
+}
+
+INLINE void ggx(const lobe *l, const half *h, floats *d)
+{
+    floats xx = h->x * h->x, yy = h->y * h->y, zz = h->z * h->z;
+    floats root = (xx + yy + zz) / (xx * l->x + yy * l->y + zz);
+
+    *d = root * root;
+}
+
+INLINE void phong(const lobe *l, const half *h, floats *d)
+{
+    floats inverse = 1.0f / (h->z * h->z);
+    floats xx = h->x * h->x, yy = h->y * h->y;
+    floats tan2 = (xx + yy) * inverse;
+    floats e = tan2;
+
+    log1p_quotient(&e);
+    e *= (xx * l->x + yy * l->y) * inverse;
+    exp2_negative(&e);
+    *d = e * (1.0f + tan2);
+}
+
+/* To [0, most]. */
+INLINE void clamp(floats *v, float most)
+{
+    ints below = *v <= most;
+    floats greatest = most + (floats){ 0 };
+
+    *v = (floats)((((ints)*v & below) | ((ints)greatest & ~below)) & (*v > 0));
+}
+
+INLINE void gather(const float *from, const ints *places, floats *out)
+{
+    int index[LANES];
+    float found[LANES];
+
+    memcpy(index, places, sizeof index);
+    for (int k = 0; k < LANES; k++)
+        found[k] = from[index[k]];
+    memcpy(out, found, sizeof found);
+}
+
+/* Slopes beyond the frame of zeros find the zeros. */
+INLINE void table(const lobe *l, const half *h, floats *d)
+{
+    const pe_ndf_table *t = l->table;
+    const float *density = t->density;
+    const int row = t->row;
+    const float last_x = (float)(t->width + 1), last_y = (float)(t->height + 1);
+    floats inverse = 1.0f / h->z;
+    floats p = h->x * inverse, q = h->y * inverse;
+    floats cos2_inverse = 1.0f + p * p + q * q;
+    floats x = p * l->scale_x + l->offset_x, y = q * l->scale_y + l->offset_y, d00, d01, d10, d11;
+    ints column, line;
+
+    clamp(&x, last_x);
+    clamp(&y, last_y);
+    column = __builtin_convertvector(x, ints);
+    line = __builtin_convertvector(y, ints);
+    column += column == t->width + 1;
+    line += line == t->height + 1;
+    x -= __builtin_convertvector(column, floats);
+    y -= __builtin_convertvector(line, floats);
+    line = line * row + column;
+    gather(density, &line, &d00);
+    gather(density + 1, &line, &d01);
+    gather(density + row, &line, &d10);
+    gather(density + row + 1, &line, &d11);
+    d00 += x * (d01 - d00);
+    d10 += x * (d11 - d10);
+    *d = (d00 + y * (d10 - d00)) * (cos2_inverse * cos2_inverse);
+}
+
+/* Adds one block's lights, seen from o, to the sums.  `kind` is a constant where this is inlined. */
+INLINE void add_block(pe_ndf_kind kind, const lobe *l, const float *values, const float o[3], lane_sums *sums)
 {
     floats weight = sums->weight, r = sums->r, g = sums->g, b = sums->b;
 
     for (int k = 0; k < PE_LIGHT_BLOCK; k += LANES) {
-        floats hx = load(values + X * PE_LIGHT_BLOCK + k) + o[0];
-        floats hy = load(values + Y * PE_LIGHT_BLOCK + k) + o[1];
-        floats hz = load(values + Z * PE_LIGHT_BLOCK + k) + o[2];
-        floats inverse = 1.0f / (hz * hz);
-        floats xx = hx * hx, yy = hy * hy;
-        floats cos2_inverse = 1.0f + (xx + yy) * inverse;
-        floats d = (xx * ax + yy * ay) * inverse;
+        half h = {
+            load(values + X * PE_LIGHT_BLOCK + k) + o[0],
+            load(values + Y * PE_LIGHT_BLOCK + k) + o[1],
+            load(values + Z * PE_LIGHT_BLOCK + k) + o[2],
+        };
+        floats d;
 
-        exp2_negative(&d);
-        d *= cos2_inverse * cos2_inverse;
+        switch (kind) {
+        case PE_NDF_BECKMANN:
+            beckmann(l, &h, &d);
+            break;
+        case PE_NDF_GGX:
+            ggx(l, &h, &d);
+            break;
+        case PE_NDF_PHONG:
+            phong(l, &h, &d);
+            break;
+        case PE_NDF_TABLE:
+            table(l, &h, &d);
+            break;
+        }
         weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
         r += d * load(values + RED * PE_LIGHT_BLOCK + k);
         g += d * load(values + GREEN * PE_LIGHT_BLOCK + k);
@@ -285,15 +434,14 @@ static void flush(lane_sums *lanes, double sums[4])
 /* Single precision sums at most this many blocks before a double takes over. */
 #define BLOCKS_PER_FLUSH 8
 
-static inline __attribute__((always_inline)) int matters(const pe_light_block *cone, const float o[3])
+INLINE int matters(const pe_light_block *cone, const float o[3])
 {
     return cone->axis[2] * o[2] - cone->axis[0] * o[0] - cone->axis[1] * o[1] >= cone->cos_reach;
 }
 
-CLONES static void beckmann_points(const pe_ndf *ndf, const pe_lights *lights, const float (*o)[3], size_t count,
-                                   double (*sums)[4])
+INLINE void add_points(pe_ndf_kind kind, const lobe *l, const pe_lights *lights, const float (*o)[3], size_t count,
+                       double (*sums)[4])
 {
-    float ax = (float)(M_LOG2E / (ndf->alpha_x * ndf->alpha_x)), ay = (float)(M_LOG2E / (ndf->alpha_y * ndf->alpha_y));
     lane_sums lanes[PE_FILTER_POINTS_MAX];
 
     memset(lanes, 0, sizeof lanes);
@@ -302,7 +450,7 @@ CLONES static void beckmann_points(const pe_ndf *ndf, const pe_lights *lights, c
 
         for (size_t k = 0; k < count; k++)
             if (matters(&lights->cones[block], o[k]))
-                beckmann_block(values, o[k], ax, ay, &lanes[k]);
+                add_block(kind, l, values, o[k], &lanes[k]);
         if (block % BLOCKS_PER_FLUSH == BLOCKS_PER_FLUSH - 1)
             for (size_t k = 0; k < count; k++)
                 flush(&lanes[k], sums[k]);
@@ -311,11 +459,39 @@ CLONES static void beckmann_points(const pe_ndf *ndf, const pe_lights *lights, c
         flush(&lanes[k], sums[k]);
 }
 
+/* A loop for each NDF. */
+#define POINTS(name, kind) \
+    CLONES static void name(const lobe *l, const pe_lights *lights, const float(*o)[3], size_t count, \
+                            double(*sums)[4]) \
+    { \
+        add_points(kind, l, lights, o, count, sums); \
+    }
+
+POINTS(beckmann_points, PE_NDF_BECKMANN)
+POINTS(ggx_points, PE_NDF_GGX)
+POINTS(phong_points, PE_NDF_PHONG)
+POINTS(table_points, PE_NDF_TABLE)
+
 void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const float (*o)[3], size_t count,
                       double (*sums)[4])
 {
+    lobe l = make_lobe(&surface->ndf);
+
     memset(sums, 0, count * sizeof *sums);
-    beckmann_points(&surface->ndf, lights, o, count, sums);
+    switch (surface->ndf.kind) {
+    case PE_NDF_BECKMANN:
+        beckmann_points(&l, lights, o, count, sums);
+        break;
+    case PE_NDF_GGX:
+        ggx_points(&l, lights, o, count, sums);
+        break;
+    case PE_NDF_PHONG:
+        phong_points(&l, lights, o, count, sums);
+        break;
+    case PE_NDF_TABLE:
+        table_points(&l, lights, o, count, sums);
+        break;
+    }
 }
 
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])

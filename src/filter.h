@@ -3,13 +3,9 @@
 #define PE_FILTER_H
 
 #include "env.h"
+#include "ndf.h"
 #include "prefenv.h"
 #include "vector.h"
-
-/* exp(-x) with x beyond this counts as 0, in production and in truth alike: single precision would turn denormal.
- * Where no texel at all has weight, the lobe is far narrower than they are, and pe_bake and pe_exact show a mirror; a
- * lobe that is not quite so narrow shows the texel nearest to its middle. */
-#define PE_LOBE_CUTOFF 55.0
 
 /* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only
  * rounding: texels that lie on the horizon itself, on neither side. */
@@ -64,8 +60,8 @@ void pe_lights_free(pe_lights *lights);
  * the mirror direction beyond which a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 
-/* The angle from the mirror direction beyond which weights are below exp(-limit) of the mirror's.  A half vector moves
- * by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
+/* The angle from the mirror direction beyond which half vectors are steeper than pe_ndf_reach; at most pi.  A half vector
+ * moves by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
 double pe_lobe_reach(const pe_surface *surface, double limit);
 
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,

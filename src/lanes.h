@@ -1,5 +1,6 @@
-/* lanes.h - vectors of 16 floats of GCC's vector extension, which become AVX-512, AVX2 or SSE2 with the same bits: every
- * lane does its own sums, and contraction is off.  For files with a hot loop alone: its names are as short as theirs. */
+/* lanes.h - vectors of 16 floats of GCC's vector extension, which become AVX-512, AVX2 or SSE2: every lane does its own
+ * sums, so that the bits are the same for any number of threads.  For files with a hot loop alone: its names are as
+ * short as theirs. */
 #ifndef PE_LANES_H
 #define PE_LANES_H
 
@@ -13,10 +14,12 @@
 typedef float floats __attribute__((vector_size(4 * LANES)));
 typedef int ints __attribute__((vector_size(4 * LANES)));
 
-/* Before a function with a hot loop.  ThreadSanitizer starts after the resolvers of target_clones run, and crashes in
- * them. */
+/* Before a function with a hot loop.  Contraction makes a product and a sum one rounding where the processor can, which
+ * is worth half as much speed again; bits then depend on the processor.  ThreadSanitizer starts after the resolvers of
+ * target_clones run, and crashes in them. */
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(PE_NO_TARGET_CLONES)
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define CLONES \
+    __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), optimize("fp-contract=fast")))
 #else
 #define CLONES
 #endif

@@ -28,9 +28,23 @@ static pe_status check_normals(int normals, pe_error *error)
                    PE_FREQUENCY_MAX, below);
 }
 
+/* Of a table that is known by name only, whatever was measured will do. */
+static pe_status check_surface(const pe_surface *surface, pe_error *error)
+{
+    pe_surface likely = *surface;
+
+    if (surface->ndf.kind == PE_NDF_TABLE) {
+        if (!(surface->ndf.alpha_x >= 0 && surface->ndf.alpha_y >= 0))
+            return pe_fail(error, PE_ERROR_ARGUMENT, "alpha %g, %g of a table is below 0", surface->ndf.alpha_x,
+                           surface->ndf.alpha_y);
+        likely.ndf = (pe_ndf){ .alpha_x = 1, .alpha_y = 1 };
+    }
+    return pe_surface_check(&likely, error);
+}
+
 static pe_status check_info(pe_maps_info *info, pe_error *error)
 {
-    pe_status status = pe_surface_check(&info->surface, error);
+    pe_status status = check_surface(&info->surface, error);
 
     if (status != PE_OK)
         return status;
@@ -58,7 +72,7 @@ static pe_status check_info(pe_maps_info *info, pe_error *error)
     return PE_OK;
 }
 
-static pe_status allocate(pe_maps *maps, const char *source_name, pe_error *error)
+static pe_status allocate(pe_maps *maps, const char *source_name, const char *ndf_name, pe_error *error)
 {
     pe_status status = pe_grid_make(maps->info.width, maps->info.height, &maps->grid, error);
 
@@ -67,11 +81,13 @@ static pe_status allocate(pe_maps *maps, const char *source_name, pe_error *erro
     if (status != PE_OK)
         return status;
     maps->source_name = strdup(source_name ? source_name : "");
+    maps->ndf_name = strdup(ndf_name ? ndf_name : "");
     maps->rgb = calloc((size_t)maps->info.images * pe_maps_image_values(maps), sizeof *maps->rgb);
-    if (!maps->source_name || !maps->rgb)
+    if (!maps->source_name || !maps->ndf_name || !maps->rgb)
         return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %d maps of %d x %d", maps->info.images,
                        maps->info.width, maps->info.height);
     maps->info.source_name = maps->source_name;
+    maps->info.ndf_name = maps->ndf_name;
     return PE_OK;
 }
 
@@ -88,7 +104,7 @@ pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *erro
         return pe_fail_memory(error, "maps");
     maps->info = checked;
     maps->info.format_version = PE_MAPS_FORMAT_VERSION;
-    status = allocate(maps, info->source_name, error);
+    status = allocate(maps, info->source_name, info->ndf_name, error);
     if (status != PE_OK) {
         pe_maps_free(maps);
         return status;
@@ -104,6 +120,7 @@ void pe_maps_free(pe_maps *maps)
     pe_geodesic_free(maps->geodesic);
     pe_grid_free(&maps->grid);
     free(maps->source_name);
+    free(maps->ndf_name);
     free(maps->rgb);
     free(maps);
 }

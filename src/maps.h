@@ -12,7 +12,7 @@
 
 struct pe_maps {
     pe_maps_info info;
-    char *source_name;
+    char *source_name, *ndf_name;
     pe_geodesic *geodesic; /* NULL for baseline */
     pe_grid grid;          /* directions of the images' texels */
     float *rgb;            /* images, one after the other */

@@ -1,7 +1,7 @@
 /* maps_file.c - maps as an OpenEXR file: one part an image, header attributes that say all there is to know.
  *
  * Part "normal.00" holds the pair n_0, -n_0 and so on; a baseline file has the one part "baseline".  Attributes of the
- * first part: prefenv:version, :method, :ndf, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth,
+ * first part: prefenv:version, :method, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth,
  * :sourceHeight, :accuracy, :errorEstimate; of every part: prefenv:normal. */
 #include "exr.h"
 #include "maps.h"
@@ -14,11 +14,11 @@
 
 static const char *const method_names[] = { "representative", "baseline" };
 static const char *const accuracy_names[] = { "auto", "exact", "fast" };
-static const char *const ndf_names[] = { "beckmann" };
+static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
-#define ATTRIBUTES 12
+#define ATTRIBUTES 13
 
 /* ---- write ---- */
 
@@ -48,6 +48,7 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
         integer("prefenv:version", PE_MAPS_FORMAT_VERSION),
         string("prefenv:method", method_names[info->method]),
         string("prefenv:ndf", ndf_names[info->surface.ndf.kind]),
+        string("prefenv:ndfName", info->ndf_name),
         number("prefenv:alphaX", info->surface.ndf.alpha_x),
         number("prefenv:alphaY", info->surface.ndf.alpha_y),
         vector("prefenv:direction", info->direction),
@@ -215,7 +216,7 @@ static pe_status check_version(const header *from)
 
 static pe_status read_info(const header *from, pe_maps_info *info)
 {
-    pe_attribute source = string("prefenv:source", "");
+    pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
     int method = 0, kind = 0, accuracy = 0;
     pe_status status = check_version(from);
 
@@ -236,7 +237,9 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     info->surface.ndf.kind = (pe_ndf_kind)kind;
     info->accuracy = (pe_accuracy)accuracy;
     pe_exr_get_attribute(from->file, 0, &source);
+    pe_exr_get_attribute(from->file, 0, &ndf_name);
     info->source_name = source.string;
+    info->ndf_name = ndf_name.string;
     return PE_OK;
 }
 

@@ -115,15 +115,15 @@ void pe_latlong_coordinates(const double direction[3], double *u, double *v);
 
 typedef enum pe_ndf_kind {
     PE_NDF_BECKMANN = 0, /* [Motegi Eq. 6] */
-    PE_NDF_GGX,          /* Trowbridge-Reitz: long tails */
-    PE_NDF_PHONG,        /* a power of cos(theta_h), 2 / alpha^2 - 2 */
+    PE_NDF_GGX,          /* Trowbridge-Reitz, which has long tails [Walter] */
+    PE_NDF_PHONG,        /* a power of cos(theta_h): 2 / alpha^2 - 2 [Ashikhmin] */
     PE_NDF_TABLE         /* measured: `table` */
 } pe_ndf_kind;
 
 typedef struct pe_ndf_table pe_ndf_table;
 
-/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX].  `table` is for PE_NDF_TABLE,
- * which ignores the alphas, and lives as long as what uses it. */
+/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX], of Phong's at most 1.  `table` is
+ * for PE_NDF_TABLE, which ignores the alphas, and lives as long as what uses it. */
 typedef struct pe_ndf {
     pe_ndf_kind kind;
     double alpha_x, alpha_y;
@@ -133,9 +133,30 @@ typedef struct pe_ndf {
 #define PE_ALPHA_MIN 0.001
 #define PE_ALPHA_MAX 2.0
 
+/* A density over the plane of slopes (p, q) = tan(theta_h) (cos phi_h, sin phi_h), p along t, q along b:
+ * D(h) = P(p, q) / cos^4(theta_h).  `density` holds width * height floats, none below 0, in cells that divide the two
+ * ranges evenly: the first row is that of the least q, the first of a row that of the least p, and each is the density
+ * at its cell's centre.  Between centres it is bilinear, outside it falls to 0 within half a cell.  It is scaled so
+ * that its integral is 1.  Each side of the table lies between 2 and 8192, 2^24 cells in all, slopes up to 1000.
+ * The mean slope ought to be 0: the surface that they are measured against is then the one seen from afar. */
+pe_status pe_ndf_table_create(int width, int height, const double p_range[2], const double q_range[2],
+                              const float *density, pe_ndf_table **table, pe_error *error);
+void pe_ndf_table_free(pe_ndf_table *table); /* NULL is allowed */
+
+/* OpenEXR: one channel Y of floats and the attributes prefenv:ndf-version, -p-min, -p-max, -q-min, -q-max.  The file
+ * appears whole or not at all. */
+pe_status pe_ndf_table_write(const pe_ndf_table *table, const char *path, pe_error *error);
+pe_status pe_ndf_table_read(const char *path, pe_ndf_table **table, pe_error *error);
+pe_status pe_ndf_table_read_memory(const void *bytes, size_t size, const char *name, pe_ndf_table **table,
+                                   pe_error *error);
+
+const char *pe_ndf_table_name(const pe_ndf_table *table); /* the file's name without its folder; "" if made */
+void pe_ndf_table_alpha(const pe_ndf_table *table, double alpha[2]); /* sqrt 2 times the rms slope along t, b */
+
 pe_status pe_ndf_check(const pe_ndf *ndf, pe_error *error);
 
-/* D(h) in 1/sr, h a unit vector in the tangent frame (t, b, n); 0 where h.n <= 0.  [Motegi Eq. 6] */
+/* D(h) in 1/sr, h a unit vector in the tangent frame (t, b, n); 0 where h.n <= 0.  The integral of D cos(theta_h) over
+ * the hemisphere is 1. */
 double pe_ndf_evaluate(const pe_ndf *ndf, const double h[3]);
 
 /* h (unit, tangent frame) with density D(h) cos(theta_h) per steradian, from u1, u2 in [0, 1). */
@@ -307,7 +328,7 @@ typedef enum pe_accuracy {
 /* A struct of zeros means the defaults. */
 typedef struct pe_bake_options {
     pe_method method;
-    pe_surface surface;  /* both alphas 0: 0.1 */
+    pe_surface surface;  /* both alphas 0: 0.1, or those of the table */
     double direction[3]; /* brush direction, any length; 0 0 0: +y */
     int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: 42.  Baseline: ignored */
     int width, height;   /* of a map, in texels, each in [2, 8192]; 0: 400 x 200 */
@@ -323,7 +344,8 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **m
 typedef struct pe_maps_info {
     int format_version;
     pe_method method;
-    pe_surface surface;
+    pe_surface surface;   /* of a table its name and alphas are kept, not itself: ndf.table is NULL */
+    const char *ndf_name; /* the table's; "" if there is none */
     double direction[3];
     int normals;       /* 0 for baseline */
     int frequency;     /* of the geodesic sphere; 0 for baseline */

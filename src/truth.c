@@ -1,6 +1,7 @@
 /* truth.c - the slow exact answers: every texel in double precision, and Monte Carlo. [Motegi Eq. 4] */
 #include "env.h"
 #include "filter.h"
+#include "ndf.h"
 #include "prefenv.h"
 #include "sequence.h"
 #include "vector.h"
@@ -41,9 +42,8 @@ static void mirror(const pe_env *env, const view *v, double rgb[3])
 static double lobe_weight(const pe_ndf *ndf, const double o[3], const double w[3])
 {
     double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] };
-    double p = h[0] / (h[2] * ndf->alpha_x), q = h[1] / (h[2] * ndf->alpha_y);
 
-    if (!(p * p + q * q <= PE_LOBE_CUTOFF))
+    if (!(pe_ndf_exponent(ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
         return 0;
     pe_normalize(h, h);
     return pe_ndf_evaluate(ndf, h);

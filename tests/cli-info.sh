@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
     bail_out "bake does not work"
 
 json=$("$PREFENV" info --json maps.exr)
-is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 1, method: "representative", ndf: "beckmann",
+is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 1, method: "representative", ndf: "beckmann", ndf_name: "",
     alpha: [0.2, 0.05], direction: [1, 0, 0], normals: 42, frequency: 2, images: 21, width: 16, height: 8,
     source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0}')" \
     "--json says all, and is JSON"

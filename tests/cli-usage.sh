@@ -111,7 +111,11 @@ done <<'TABLE'
 --size 400x|width and height are wanted
 --size 1x200|--size 1x200: out of range: 2 to 8192
 --size 400x8193|out of range: 2 to 8192
---ndf ggx|--ndf ggx: not known; what there is: beckmann
+--ndf ggg|--ndf ggg: not known; did you mean ggx?
+--ndf gaussian|--ndf gaussian: not known; what there is: beckmann, ggx, phong, or a file
+--ndf ./no.ndf.exr|no.ndf.exr
+--ndf ./no.ndf.exr --alpha 0.1|--alpha does not go with --ndf
+--ndf phong --alpha 1.5|alpha 1.5, 1.5 is out of range for phong; each lies between 0.001 and 1
 --method best|not known; what there is: representative, baseline
 --threads 0|out of range: 1 to 256
 --exact --fast|--exact and --fast exclude each other

@@ -5,6 +5,7 @@
 #include "interrupt.h"
 #include "prefenv.h"
 #include "progress.h"
+#include "reflectance.h"
 
 #include <stdio.h>
 #include <sys/stat.h>
@@ -14,8 +15,9 @@
 
 typedef struct bake_settings {
     const char *environment, *output;
-    int method, ndf;
-    double alpha[2], direction[3];
+    int method;
+    cli_surface surface;
+    double direction[3];
     int normals, size[2];
     int exact, fast, floats;
     int threads, json, quiet;
@@ -74,13 +76,14 @@ static int draw_progress(double fraction, void *data)
     return 0;
 }
 
-static pe_status bake_maps(const bake_settings *settings, const pe_env *env, pe_maps **maps, pe_error *error)
+static pe_status bake_maps(const bake_settings *settings, const pe_surface *surface, const pe_env *env, pe_maps **maps,
+                           pe_error *error)
 {
     progress bar;
     pe_status status;
     pe_bake_options bake = {
         .method = (pe_method)settings->method,
-        .surface = { .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1], NULL } },
+        .surface = *surface,
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
         .width = settings->size[0],
@@ -139,7 +142,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
 }
 
 /* Bakes and writes; on success *maps is the caller's. */
-static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_error *error)
+static pe_status bake_file(const bake_settings *settings, const pe_surface *surface, pe_maps **maps, pe_error *error)
 {
     pe_env *env;
     pe_status status = cli_read_environment(settings->environment, &env, error);
@@ -148,7 +151,7 @@ static pe_status bake_file(const bake_settings *settings, pe_maps **maps, pe_err
         return status;
     if (!settings->quiet)
         cli_warn_of_repairs("bake", settings->environment, env);
-    status = bake_maps(settings, env, maps, error);
+    status = bake_maps(settings, surface, env, maps, error);
     pe_env_free(env);
     if (status != PE_OK)
         return status;
@@ -164,15 +167,22 @@ static int bake_run(int argc, char **argv)
 {
     bake_settings settings = { 0 };
     double begun = clock_seconds();
+    pe_surface surface;
+    pe_ndf_table *table;
     pe_maps *maps;
     pe_error error;
+    pe_status status;
     int proceed = cli_parse(&bake_command, argc, argv, &settings);
 
     if (proceed != CLI_PROCEED)
         return proceed;
     if (check_settings(&settings) != CLI_SUCCESS)
         return CLI_FAILURE;
-    if (bake_file(&settings, &maps, &error) != PE_OK) {
+    if (cli_make_surface("bake", &settings.surface, &surface, &table) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    status = bake_file(&settings, &surface, &maps, &error);
+    pe_ndf_table_free(table);
+    if (status != PE_OK) {
         cli_error("bake", "%s", error.message);
         return CLI_FAILURE;
     }

@@ -8,6 +8,13 @@ static const char *method_name(pe_method method)
     return method == PE_METHOD_BASELINE ? "baseline" : "representative";
 }
 
+static const char *ndf_name(const pe_ndf *ndf)
+{
+    static const char *const names[] = { "beckmann", "ggx", "phong", "table" };
+
+    return names[ndf->kind];
+}
+
 void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
 {
     if (info->accuracy == PE_ACCURACY_FAST)
@@ -25,7 +32,10 @@ void describe_maps(const pe_maps_info *info)
     if (info->method == PE_METHOD_REPRESENTATIVE)
         printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
     printf("images     %d of %dx%d\n", info->images, info->width, info->height);
-    printf("ndf        beckmann\n");
+    if (info->surface.ndf.kind == PE_NDF_TABLE)
+        printf("ndf        table %s\n", *info->ndf_name ? info->ndf_name : "(no name)");
+    else
+        printf("ndf        %s\n", ndf_name(&info->surface.ndf));
     if (info->surface.ndf.alpha_x == info->surface.ndf.alpha_y)
         printf("alpha      %g\n", info->surface.ndf.alpha_x);
     else
@@ -44,7 +54,8 @@ void describe_maps_json(json *out, const pe_maps_info *info)
 
     json_integer(out, "format_version", info->format_version);
     json_text(out, "method", method_name(info->method));
-    json_text(out, "ndf", "beckmann");
+    json_text(out, "ndf", ndf_name(&info->surface.ndf));
+    json_text(out, "ndf_name", info->ndf_name);
     json_numbers(out, "alpha", alpha, 2);
     json_numbers(out, "direction", direction, 3);
     json_integer(out, "normals", info->normals);

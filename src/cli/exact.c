@@ -3,11 +3,12 @@
 #include "commands.h"
 #include "lines.h"
 #include "prefenv.h"
+#include "reflectance.h"
 
 typedef struct exact_settings {
     const char *environment;
-    int ndf;
-    double alpha[2], direction[3];
+    cli_surface surface;
+    double direction[3];
     int threads, quiet;
 } exact_settings;
 
@@ -36,11 +37,11 @@ static void sum_up(const double n[3], const double o[3], const void *data, doubl
     pe_exact(t->env, &t->surface, t->direction, n, o, rgb);
 }
 
-static int answer_lines(const exact_settings *settings, const pe_env *env)
+static int answer_lines(const exact_settings *settings, const pe_surface *surface, const pe_env *env)
 {
     const truth t = {
         env,
-        { .ndf = { (pe_ndf_kind)settings->ndf, settings->alpha[0], settings->alpha[1], NULL } },
+        *surface,
         { settings->direction[0], settings->direction[1], settings->direction[2] },
     };
     const lines_job job = { "exact", settings->threads, LINES_PER_BLOCK, sum_up, &t };
@@ -48,23 +49,36 @@ static int answer_lines(const exact_settings *settings, const pe_env *env)
     return lines_run(&job);
 }
 
+static int answer(const exact_settings *settings, const pe_surface *surface)
+{
+    pe_env *env;
+    pe_error error;
+    int result;
+
+    if (cli_read_environment(settings->environment, &env, &error) != PE_OK) {
+        cli_error("exact", "%s", error.message);
+        return CLI_FAILURE;
+    }
+    if (!settings->quiet)
+        cli_warn_of_repairs("exact", settings->environment, env);
+    result = answer_lines(settings, surface, env);
+    pe_env_free(env);
+    return result;
+}
+
 static int exact_run(int argc, char **argv)
 {
     exact_settings settings = { 0 };
-    pe_env *env;
-    pe_error error;
+    pe_surface surface;
+    pe_ndf_table *table;
     int result = cli_parse(&exact_command, argc, argv, &settings);
 
     if (result != CLI_PROCEED)
         return result;
-    if (cli_read_environment(settings.environment, &env, &error) != PE_OK) {
-        cli_error("exact", "%s", error.message);
+    if (cli_make_surface("exact", &settings.surface, &surface, &table) != CLI_SUCCESS)
         return CLI_FAILURE;
-    }
-    if (!settings.quiet)
-        cli_warn_of_repairs("exact", settings.environment, env);
-    result = answer_lines(&settings, env);
-    pe_env_free(env);
+    result = answer(&settings, &surface);
+    pe_ndf_table_free(table);
     return result;
 }
 

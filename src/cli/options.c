@@ -12,8 +12,6 @@
 #define LONG_VALUE 256 /* getopt_long's value of option i is LONG_VALUE + i; letters lie below */
 #define HELP_VALUE 'h'
 
-const cli_choice cli_ndfs[] = { { "beckmann", PE_NDF_BECKMANN }, { NULL, 0 } };
-
 typedef struct getopt_tables {
     struct option longs[OPTIONS_MAX + 2];
     char letters[2 * OPTIONS_MAX + 4];

@@ -90,20 +90,18 @@ void cli_wrap(const char *text, int column, int indent);
     }
 #define CLI_OPTION_NDF(settings) \
     { \
-        "ndf", 0, "NAME", CLI_CHOICE, offsetof(settings, ndf), 0, 0, cli_ndfs, "beckmann", 0, \
-            "the surface's normal distribution: beckmann" \
+        "ndf", 0, "NAME|FILE", CLI_TEXT, offsetof(settings, surface.ndf), 0, 0, NULL, "beckmann", 0, \
+            "the surface's normal distribution: beckmann, ggx or phong; or a file of a measured one, *.exr" \
     }
 #define CLI_OPTION_ALPHA(settings) \
     { \
-        "alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, "0.1", 0, \
-            "width of the normal distribution; two numbers: along and across the brush direction" \
+        "alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, surface.alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, NULL, 0, \
+            "width of beckmann, ggx or phong; two numbers: along and across the brush direction. Default: 0.1" \
     }
 #define CLI_OPTION_DIRECTION(settings) \
     { \
         "direction", 0, "X,Y,Z", CLI_VECTOR, offsetof(settings, direction), 0, 0, NULL, "0,1,0", 0, \
             "the brush direction, which a width of two numbers refers to" \
     }
-
-extern const cli_choice cli_ndfs[];
 
 #endif
