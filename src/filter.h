@@ -60,8 +60,8 @@ void pe_lights_free(pe_lights *lights);
  * the mirror direction beyond which a light does not matter. */
 void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
 
-/* The angle from the mirror direction beyond which half vectors are steeper than pe_ndf_reach; at most pi.  A half vector
- * moves by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
+/* The angle from the mirror direction beyond which half vectors are steeper than pe_ndf_reach; at most pi.  A half
+ * vector moves by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
 double pe_lobe_reach(const pe_surface *surface, double limit);
 
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,

@@ -4,7 +4,7 @@
  * c = 1 + m^2 = 1 / cos^2(theta_h) and s = (p / ax)^2 + (q / ay)^2, each is D = P(p, q) c^2 with
  *
  *     Beckmann    P = exp(-s) / (pi ax ay)                       [Motegi Eq. 6]
- *     GGX         P = 1 / (pi ax ay (1 + s)^2)                   [Trowbridge], [Walter], anisotropic [Heitz Eq. 85]
+ *     GGX         P = 1 / (pi ax ay (1 + s)^2)                   [Trowbridge], [Walter]; stretched as in [Heitz]
  *     Phong       P = c^-(K + 1) / (pi ax ay),  K = s / m^2      [Ashikhmin]
  *
  * Phong's D is N cos^e(theta_h), e = e_x cos^2(phi_h) + e_y sin^2(phi_h) and e_x = 2 / ax^2 - 2: then e + 2 = 2 K. */

@@ -40,8 +40,35 @@ double reference_beckmann(double alpha_x, double alpha_y, const double h[3], con
            (M_PI * alpha_x * alpha_y * pow(cos_theta, 4));
 }
 
+/* GGX as in Walter et al. 2007 (Eq. 33), stretched along the tangents; Phong as in Ashikhmin and Shirley 2000 (Eq. 7),
+ * whose exponents n_u, n_v count the cosine that D is multiplied with here: n_u = 2 / alpha_x^2 - 1. */
+double reference_density(int kind, double alpha_x, double alpha_y, const double h[3], const double t[3],
+                         const double b[3], const double n[3])
+{
+    double cos_theta = dot(h, n), theta, phi, n_u = 2 / (alpha_x * alpha_x) - 1, n_v = 2 / (alpha_y * alpha_y) - 1;
+    double stretched;
+
+    if (cos_theta <= 0)
+        return 0;
+    if (kind == 0)
+        return reference_beckmann(alpha_x, alpha_y, h, t, b, n);
+    theta = acos(cos_theta < 1 ? cos_theta : 1);
+    phi = atan2(dot(h, b), dot(h, t));
+    if (kind == 2)
+        return sqrt((n_u + 1) * (n_v + 1)) / (2 * M_PI) *
+               pow(cos_theta, n_u * pow(cos(phi), 2) + n_v * pow(sin(phi), 2) - 1);
+    stretched = pow(tan(theta), 2) * (pow(cos(phi) / alpha_x, 2) + pow(sin(phi) / alpha_y, 2));
+    return 1 / (M_PI * alpha_x * alpha_y * pow(cos_theta, 4) * pow(1 + stretched, 2));
+}
+
 void reference_reflection(const float *rgb, int width, int height, double alpha_x, double alpha_y, const double d[3],
                           const double n[3], const double o[3], double out[3])
+{
+    reference_reflection_of(0, rgb, width, height, alpha_x, alpha_y, d, n, o, out);
+}
+
+void reference_reflection_of(int kind, const float *rgb, int width, int height, double alpha_x, double alpha_y,
+                             const double d[3], const double n[3], const double o[3], double out[3])
 {
     double along = dot(d, n), sum = 0, t[3], b[3];
 
@@ -63,7 +90,7 @@ void reference_reflection(const float *rgb, int width, int height, double alpha_
             for (int c = 0; c < 3; c++)
                 h[c] = o[c] + w[c];
             unit(h);
-            weight = reference_beckmann(alpha_x, alpha_y, h, t, b, n) * sin(theta);
+            weight = reference_density(kind, alpha_x, alpha_y, h, t, b, n) * sin(theta);
             sum += weight;
             for (int c = 0; c < 3; c++)
                 out[c] += weight * (double)rgb[3 * (y * width + x) + c];

@@ -11,6 +11,10 @@ void reference_direction(int width, int height, int x, int y, double direction[3
 double reference_beckmann(double alpha_x, double alpha_y, const double h[3], const double t[3], const double b[3],
                           const double n[3]);
 
+/* The same for the kinds of pe_ndf_kind that have a formula, by its number: 0 Beckmann, 1 GGX, 2 Phong. */
+double reference_density(int kind, double alpha_x, double alpha_y, const double h[3], const double t[3],
+                         const double b[3], const double n[3]);
+
 /* Texels this close to the horizon are on neither side of it: their cosine is rounding. */
 #define REFERENCE_HORIZON 1e-9
 
@@ -18,6 +22,10 @@ double reference_beckmann(double alpha_x, double alpha_y, const double h[3], con
  * texels in the hemisphere of n. */
 void reference_reflection(const float *rgb, int width, int height, double alpha_x, double alpha_y, const double d[3],
                           const double n[3], const double o[3], double out[3]);
+
+/* The same for any of the kinds. */
+void reference_reflection_of(int kind, const float *rgb, int width, int height, double alpha_x, double alpha_y,
+                             const double d[3], const double n[3], const double o[3], double out[3]);
 
 /* ---- environments that hurt, and the means to make more; release with free() ---- */
 

@@ -14,6 +14,8 @@
 #define WORST_MAX 1e-5
 #define RMS_MAX 3e-6
 
+static const char *const kinds[] = { "beckmann", "ggx", "phong", "table" };
+
 typedef struct environment {
     const char *name;
     int width, height;
@@ -40,8 +42,8 @@ static void reference_texel(const environment *e, const pe_maps_info *info, cons
     pe_scale(pe_dot(w, n_k) > 0 ? 1 : -1, n_k, n);
     pe_reflect(w, n, o);
     pe_normalize(info->direction, d);
-    reference_reflection(e->rgb, e->width, e->height, info->surface.ndf.alpha_x, info->surface.ndf.alpha_y, d, n, o,
-                         out);
+    reference_reflection_of((int)info->surface.ndf.kind, e->rgb, e->width, e->height, info->surface.ndf.alpha_x,
+                            info->surface.ndf.alpha_y, d, n, o, out);
 }
 
 /* Differences over every `stride`-th texel of every image. */
@@ -75,10 +77,11 @@ static void compare(const environment *e, const pe_maps *maps, int stride, doubl
     *rms = sqrt(error2 / norm2);
 }
 
-static void test_bake(const environment *e, pe_method method, double alpha_x, double alpha_y, const double direction[3])
+static void test_bake(const environment *e, pe_method method, pe_ndf_kind kind, double alpha_x, double alpha_y,
+                      const double direction[3])
 {
     pe_bake_options options = { .method = method,
-                                .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
+                                .surface.ndf = { kind, alpha_x, alpha_y, NULL },
                                 .direction = { direction[0], direction[1], direction[2] },
                                 .normals = 12,
                                 .width = 37,
@@ -91,16 +94,17 @@ static void test_bake(const environment *e, pe_method method, double alpha_x, do
 
     need(pe_bake(env, &options, &maps, &error) == PE_OK, "%s", error.message);
     compare(e, maps, 7, &worst, &rms);
-    ok(worst < WORST_MAX && rms < RMS_MAX, "%s, %s, alpha %g, %g: worst %.1e, rms %.1e", e->name,
+    ok(worst < WORST_MAX && rms < RMS_MAX, "%s, %s, %s, alpha %g, %g: worst %.1e, rms %.1e", e->name, kinds[kind],
        method == PE_METHOD_BASELINE ? "baseline" : "representative", alpha_x, alpha_y, worst, rms);
     pe_maps_free(maps);
     pe_env_free(env);
 }
 
-static void test_exact(const environment *e, double alpha_x, double alpha_y, const double direction[3])
+static void test_exact(const environment *e, pe_ndf_kind kind, double alpha_x, double alpha_y,
+                       const double direction[3])
 {
     pe_env *env = make(e);
-    pe_surface surface = { .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL } };
+    pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL } };
     double worst = 0, unit_direction[3];
     unsigned state = 11;
 
@@ -115,11 +119,12 @@ static void test_exact(const environment *e, double alpha_x, double alpha_y, con
         pe_exact(env, &surface, direction, long_n, long_o, got);
         if (pe_dot(n, o) < 0)
             pe_scale(-1, n, n);
-        reference_reflection(e->rgb, e->width, e->height, alpha_x, alpha_y, unit_direction, n, o, expected);
+        reference_reflection_of((int)kind, e->rgb, e->width, e->height, alpha_x, alpha_y, unit_direction, n, o,
+                                expected);
         for (int c = 0; c < 3; c++)
             worst = fmax(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-30));
     }
-    ok(worst < 1e-9, "%s, alpha %g, %g: pe_exact within %.1e", e->name, alpha_x, alpha_y, worst);
+    ok(worst < 1e-9, "%s, %s, alpha %g, %g: pe_exact within %.1e", e->name, kinds[kind], alpha_x, alpha_y, worst);
     pe_env_free(env);
 }
 
@@ -191,11 +196,11 @@ static void test_equator(int width, int height)
 }
 
 /* Monte Carlo's mean is Eq. 4: many views, each answered by many samples, a Z-test on the mean difference of each. */
-static void test_monte_carlo(double alpha_x, double alpha_y)
+static void test_monte_carlo(pe_ndf_kind kind, double alpha_x, double alpha_y)
 {
     environment e = { "gradient", 256, 128, reference_gradient(256, 128) };
     pe_env *env = make(&e);
-    pe_surface surface = { .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL } };
+    pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL } };
     double sum = 0, sum2 = 0, count = 0;
     unsigned state = 5;
 
@@ -214,9 +219,10 @@ static void test_monte_carlo(double alpha_x, double alpha_y)
             count++;
         }
     }
-    ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "alpha %g, %g: Monte Carlo's mean, z = %.2f", alpha_x,
-       alpha_y, sum / count / sqrt(sum2 / count / count));
-    ok(sqrt(sum2 / count) < 0.003, "alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", alpha_x, alpha_y,
+    ok(fabs(sum / count) < 4 * sqrt(sum2 / count / count), "%s, alpha %g, %g: Monte Carlo's mean, z = %.2f",
+       kinds[kind], alpha_x, alpha_y, sum / count / sqrt(sum2 / count / count));
+    ok(sqrt(sum2 / count) < (kind == PE_NDF_GGX ? 0.01 : 0.003),
+       "%s, alpha %g, %g: Monte Carlo with 2048 samples within %.4f rms", kinds[kind], alpha_x, alpha_y,
        sqrt(sum2 / count));
     pe_env_free(env);
     free(e.rgb);
@@ -245,6 +251,17 @@ static void test_decorrelated(void)
     free(e.rgb);
 }
 
+static void test_all(const environment *e, pe_ndf_kind kind)
+{
+    int coarse = e->width < 10; /* lobes narrower than its texels are a mirror, which the reference has not */
+
+    test_bake(e, PE_METHOD_REPRESENTATIVE, kind, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
+    test_bake(e, PE_METHOD_REPRESENTATIVE, kind, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
+    test_bake(e, PE_METHOD_BASELINE, kind, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
+    test_bake(e, PE_METHOD_BASELINE, kind, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
+    test_exact(e, kind, coarse ? 0.6 : 0.2, coarse ? 0.6 : 0.15, aslant);
+}
+
 int main(void)
 {
     environment all[] = {
@@ -259,18 +276,13 @@ int main(void)
         all[2].rgb[3 * (9 * 64 + 50) + c] = 30000;
         all[3].rgb[3 * 17 + c] = 30000;
     }
-    for (int k = 0; k < (int)(sizeof all / sizeof *all); k++) {
-        int coarse = all[k].width < 10; /* lobes narrower than its texels are a mirror, which the reference has not */
-
-        test_bake(&all[k], PE_METHOD_REPRESENTATIVE, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
-        test_bake(&all[k], PE_METHOD_REPRESENTATIVE, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
-        test_bake(&all[k], PE_METHOD_BASELINE, coarse ? 0.6 : 0.1, coarse ? 0.6 : 0.1, plus_y);
-        test_bake(&all[k], PE_METHOD_BASELINE, coarse ? 0.8 : 0.15, coarse ? 0.5 : 0.07, aslant);
-        test_exact(&all[k], coarse ? 0.6 : 0.2, coarse ? 0.6 : 0.15, aslant);
-    }
-    test_monte_carlo(0.1, 0.1);
-    test_monte_carlo(0.1, 0.03);
-    test_monte_carlo(0.6, 0.6);
+    for (int k = 0; k < 3 * (int)(sizeof all / sizeof *all); k++)
+        test_all(&all[k / 3], (pe_ndf_kind)(k % 3));
+    test_monte_carlo(PE_NDF_BECKMANN, 0.1, 0.1);
+    test_monte_carlo(PE_NDF_BECKMANN, 0.1, 0.03);
+    test_monte_carlo(PE_NDF_BECKMANN, 0.6, 0.6);
+    test_monte_carlo(PE_NDF_GGX, 0.1, 0.03);
+    test_monte_carlo(PE_NDF_PHONG, 0.1, 0.03);
     test_decorrelated();
     test_narrow(0.02);
     test_narrow(0.005);

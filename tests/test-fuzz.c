@@ -52,6 +52,22 @@ static void seed_maps(seed *s, pe_pixel_type type)
     free(rgb);
 }
 
+static void seed_table(seed *s)
+{
+    static const double range[2] = { -0.3, 0.5 };
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *density = reference_noise(8, 3, 5);
+    pe_ndf_table *table = NULL;
+
+    close(mkstemp(path));
+    need(pe_ndf_table_create(24, 3, range, range, density, &table, NULL) == PE_OK &&
+             pe_ndf_table_write(table, path, NULL) == PE_OK,
+         "cannot make a table");
+    load_file(path, s);
+    pe_ndf_table_free(table);
+    free(density);
+}
+
 static void seed_png(seed *s)
 {
     char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
@@ -160,6 +176,23 @@ static int measures_or_says(const unsigned char *bytes, size_t size)
     return sound;
 }
 
+/* A table that loads can be looked up and drawn from. */
+static int table_loads_or_says(const unsigned char *bytes, size_t size)
+{
+    pe_ndf_table *table;
+    pe_error error = { PE_OK, "" };
+    pe_ndf ndf = { .kind = PE_NDF_TABLE };
+    double h[3] = { 0.1, 0.2, 0.9 };
+
+    if (pe_ndf_table_read_memory(bytes, size, "fuzz", &table, &error) != PE_OK)
+        return error.message[0] && !strchr(error.message, '\n');
+    ndf.table = table;
+    pe_ndf_evaluate(&ndf, h);
+    pe_ndf_sample(&ndf, 0.5, 0.999, h);
+    pe_ndf_table_free(table);
+    return h[2] > 0;
+}
+
 /* 1 if loading the bytes in every way ends in success or in one sentence. */
 static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
 {
@@ -187,7 +220,7 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
         sound &= error.message[0] && !strchr(error.message, '\n');
     }
     pe_maps_detect(bytes, size);
-    return sound && measures_or_says(bytes, size);
+    return sound && measures_or_says(bytes, size) && table_loads_or_says(bytes, size);
 }
 
 static void test_seed(const seed *s)
@@ -211,16 +244,16 @@ static void test_seed(const seed *s)
 
 int main(void)
 {
-    static seed seeds[] = {
-        { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" }, { .name = "HDR" }, { .name = "heights" }
-    };
+    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },
+                            { .name = "HDR" },       { .name = "heights" },    { .name = "table" } };
 
     seed_maps(&seeds[0], PE_PIXEL_HALF);
     seed_maps(&seeds[1], PE_PIXEL_FLOAT);
     seed_png(&seeds[2]);
     seed_hdr(&seeds[3]);
     seed_heights(&seeds[4]);
-    for (int k = 0; k < 5; k++)
+    seed_table(&seeds[5]);
+    for (int k = 0; k < 6; k++)
         test_seed(&seeds[k]);
     return done_testing();
 }

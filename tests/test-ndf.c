@@ -1,10 +1,14 @@
-/* test-ndf.c - claim: D is normalised, agrees with Eq. 6 written out, and its sampler draws from D cos(theta). */
+/* test-ndf.c - claim: D is normalised, agrees with the formulas written out, and its sampler draws from D cos(theta);
+ * and where pe_ndf_reach says so D is small, and not before. */
+#include "ndf.h"
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
 
 #include <math.h>
 #include <string.h>
+
+static const char *const kinds[] = { "beckmann", "ggx", "phong" };
 
 static const double alphas[][2] = {
     { 0.1, 0.1 }, { 0.1, 0.03 }, { 0.02, 0.02 }, { 0.6, 0.6 }, { 0.05, 0.5 }, { 2, 2 }
@@ -45,7 +49,7 @@ static double difference_from_formula(const pe_ndf *ndf)
             double h[3], expected;
 
             spherical(0.02 * i, j * 0.17453, h);
-            expected = reference_beckmann(ndf->alpha_x, ndf->alpha_y, h, t, b, n);
+            expected = reference_density((int)ndf->kind, ndf->alpha_x, ndf->alpha_y, h, t, b, n);
             worst = fmax(worst, fabs(pe_ndf_evaluate(ndf, h) - expected) / (expected + 1e-250));
         }
     return worst;
@@ -115,24 +119,72 @@ static double sampler_p(const pe_ndf *ndf)
     return chi_square_p(chi_square, cells);
 }
 
+static void test_closed_form(pe_ndf_kind kind, double alpha_x, double alpha_y)
+{
+    static const double below[3] = { 0.6, 0, -0.8 };
+    pe_ndf ndf = { kind, alpha_x, alpha_y, NULL };
+    double integral = integrate(&ndf), worst = difference_from_formula(&ndf), p = sampler_p(&ndf);
+    char name[64];
+
+    snprintf(name, sizeof name, "%s, alpha %g, %g", kinds[kind], alpha_x, alpha_y);
+    ok(fabs(integral - 1) < 2e-4, "%s: integral of D cos = %.6f", name, integral);
+    ok(worst < 1e-9, "%s: the formula within %.1e", name, worst);
+    ok(p > 1e-4, "%s: sampler's chi-square test, p = %.3f", name, p);
+    ok(pe_ndf_evaluate(&ndf, below) == 0, "%s: no normals below the surface", name);
+}
+
+/* How small D is at slopes p, q as pe_ndf_reach counts it, against its middle. */
+static double smallness(const pe_ndf *ndf, double p, double q)
+{
+    double cos2 = 1 / (1 + p * p + q * q);
+
+    if (ndf->kind == PE_NDF_GGX)
+        return -log(pe_ndf_slope_density(ndf, p, q) / pe_ndf_slope_density(ndf, 0, 0) / (cos2 * cos2));
+    return pe_ndf_exponent(ndf, p, q);
+}
+
+static void test_reach(pe_ndf_kind kind, double alpha_x, double alpha_y, double limit)
+{
+    pe_ndf ndf = { kind, alpha_x, alpha_y, NULL };
+    double reach = pe_ndf_reach(&ndf, limit), least = INFINITY, before, m = 0.99 * reach;
+
+    for (int k = 0; k < 360 && reach < INFINITY; k++)
+        for (double beyond = 1 + 1e-9; beyond < 1e6; beyond *= 1.3)
+            least = fmin(least,
+                         smallness(&ndf, beyond * reach * cos(k * M_PI / 180), beyond * reach * sin(k * M_PI / 180)));
+    if (reach == INFINITY) /* nowhere so small */
+        m = 1e9, least = limit;
+    before = fmin(smallness(&ndf, m, 0), smallness(&ndf, 0, m));
+    ok(least > limit - 1e-6 && before < limit, "%s, alpha %g, %g: D is below exp(-%g) beyond slopes of %g", kinds[kind],
+       alpha_x, alpha_y, limit, reach);
+}
+
+static void test_reaches(void)
+{
+    for (int kind = 0; kind < 3; kind++)
+        for (int limit = 1; limit < 60; limit += 17) {
+            test_reach((pe_ndf_kind)kind, 0.1, 0.1, limit);
+            test_reach((pe_ndf_kind)kind, 0.005, 0.02, limit);
+        }
+}
+
 int main(void)
 {
     pe_error error;
     pe_ndf bad = { PE_NDF_BECKMANN, 0, 0.1, NULL };
-    double below[3] = { 0.6, 0, -0.8 };
 
-    for (int k = 0; k < CASES; k++) {
-        pe_ndf ndf = { PE_NDF_BECKMANN, alphas[k][0], alphas[k][1], NULL };
-        double integral = integrate(&ndf), worst = difference_from_formula(&ndf), p = sampler_p(&ndf);
-
-        ok(fabs(integral - 1) < 2e-4, "alpha %g, %g: integral of D cos = %.6f", ndf.alpha_x, ndf.alpha_y, integral);
-        ok(worst < 1e-9, "alpha %g, %g: Eq. 6 within %.1e", ndf.alpha_x, ndf.alpha_y, worst);
-        ok(p > 1e-4, "alpha %g, %g: sampler's chi-square test, p = %.3f", ndf.alpha_x, ndf.alpha_y, p);
-        ok(pe_ndf_evaluate(&ndf, below) == 0, "alpha %g, %g: no normals below the surface", ndf.alpha_x, ndf.alpha_y);
-    }
+    for (int kind = 0; kind < 3; kind++)
+        for (int k = 0; k < CASES; k++)
+            if (kind != PE_NDF_PHONG || alphas[k][0] <= 1)
+                test_closed_form((pe_ndf_kind)kind, alphas[k][0], alphas[k][1]);
+    test_reaches();
     ok(pe_ndf_check(&bad, &error) == PE_ERROR_ARGUMENT && strstr(error.message, "alpha"), "alpha 0 is refused: %s",
        error.message);
     bad.alpha_x = NAN;
     ok(pe_ndf_check(&bad, NULL) == PE_ERROR_ARGUMENT, "alpha NaN is refused");
+    bad = (pe_ndf){ PE_NDF_PHONG, 0.5, 1.01, NULL };
+    ok(pe_ndf_check(&bad, NULL) == PE_ERROR_ARGUMENT, "alpha 1.01 is refused for phong, whose exponent is negative");
+    bad = (pe_ndf){ .kind = PE_NDF_TABLE };
+    ok(pe_ndf_check(&bad, NULL) == PE_ERROR_ARGUMENT, "a table that is not there is refused");
     return done_testing();
 }

@@ -1,0 +1,298 @@
+/* test-ndf-table.c - claims: a measured distribution is normalised, is drawn from as it is, survives its file, and is
+ * filtered with as pe_exact does; and a Beckmann distribution tabulated finely bakes as the closed form does. */
+#include "prefenv.h"
+#include "reference.h"
+#include "tap.h"
+#include "vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double plus_y[3] = { 0, 1, 0 };
+
+static pe_ndf_table *make(int width, int height, const double p_range[2], const double q_range[2], const float *density)
+{
+    pe_ndf_table *table;
+    pe_error error;
+
+    need(pe_ndf_table_create(width, height, p_range, q_range, density, &table, &error) == PE_OK, "%s", error.message);
+    return table;
+}
+
+static pe_ndf_table *make_beckmann(double alpha_x, double alpha_y, int cells)
+{
+    const double p_range[2] = { -6 * alpha_x, 6 * alpha_x }, q_range[2] = { -6 * alpha_y, 6 * alpha_y };
+    float *density = malloc((size_t)cells * (size_t)cells * sizeof *density);
+    pe_ndf_table *table;
+
+    for (int k = 0; k < cells * cells; k++) {
+        double p = 12 * (k % cells + 0.5) / cells - 6, q = 12 * ((int)(k / cells) + 0.5) / cells - 6;
+
+        density[k] = (float)exp(-p * p - q * q);
+    }
+    table = make(cells, cells, p_range, q_range, density);
+    free(density);
+    return table;
+}
+
+/* Two ridges that miss the middle, as milling leaves them, and noise; nothing about it is even. */
+static pe_ndf_table *make_ridges(void)
+{
+    const double p_range[2] = { -0.3, 0.5 }, q_range[2] = { -0.6, 0.2 };
+    enum { WIDTH = 64, HEIGHT = 40 };
+    static float density[WIDTH * HEIGHT];
+    unsigned state = 3;
+
+    for (int k = 0; k < WIDTH * HEIGHT; k++) {
+        int x = k % WIDTH;
+
+        density[k] = (float)(reference_random(&state) * (fabs(x - 14.0) < 5 || fabs(x - 40.0) < 9 ? 1 : 0.01));
+    }
+    return make(WIDTH, HEIGHT, p_range, q_range, density);
+}
+
+/* D of slopes, times cos^4 theta: P. */
+static double slope_density(const pe_ndf *ndf, double p, double q)
+{
+    double h[3] = { p, q, 1 };
+
+    pe_normalize(h, h);
+    return pe_ndf_evaluate(ndf, h) * pow(h[2], 4);
+}
+
+/* The integral of P, by a midpoint rule whose steps end where P has its creases. */
+static void test_integral(const pe_ndf *ndf)
+{
+    enum { FINE = 16 };
+    double sum = 0, p_step = 0.0125 / FINE, q_step = 0.02 / FINE;
+
+    for (int i = 0; i < 80 * FINE; i++)
+        for (int j = 0; j < 60 * FINE; j++)
+            sum += slope_density(ndf, -0.30625 - 0.0125 + (i + 0.5) * p_step, -0.61 - 0.02 + (j + 0.5) * q_step);
+    ok(fabs(sum * p_step * q_step - 1) < 2e-6, "ridges: the integral of P is %.7f", sum * p_step * q_step);
+}
+
+/* Halfway between samples bilinear is the mean; a cell's width outside there is nothing. */
+static void test_bilinear(void)
+{
+    const double range[2] = { 0, 2 }, other[2] = { -1, 2 };
+    const float density[6] = { 1, 3, 5, 7, 2, 6 };
+    pe_ndf_table *table = make(2, 3, range, other, density);
+    pe_ndf ndf = { .kind = PE_NDF_TABLE, .table = table };
+
+    ok(fabs(slope_density(&ndf, 0.5, -0.5) - 1 / 24.0) < 1e-7, "the first sample is at the least p and q");
+    ok(fabs(slope_density(&ndf, 1.5, 1.5) - 6 / 24.0) < 1e-7, "the last at the greatest");
+    ok(fabs(slope_density(&ndf, 1, 0) - 4 / 24.0) < 1e-7, "bilinear between four");
+    ok(fabs(slope_density(&ndf, -0.25, -0.5) - 0.25 / 24) < 1e-7, "it falls to 0 outside");
+    ok(slope_density(&ndf, -0.51, -0.5) == 0 && slope_density(&ndf, 1, 2.51) == 0, "and is 0 a cell away");
+    pe_ndf_table_free(table);
+}
+
+/* Chi-square over the cells of a grid of its own. */
+static void test_sampler(const pe_ndf *ndf)
+{
+    enum { CELLS = 24, FINE = 40, SAMPLES = 1000000 };
+    static int counts[CELLS][CELLS];
+    double chi_square = 0, z, step = 1.0 / CELLS;
+    int used = 0, lost = SAMPLES;
+    unsigned state = 5;
+
+    memset(counts, 0, sizeof counts);
+    for (int k = 0; k < SAMPLES; k++) {
+        double u1 = reference_random(&state), h[3];
+        int x, y;
+
+        pe_ndf_sample(ndf, u1, reference_random(&state), h);
+        x = (int)floor((h[0] / h[2] + 0.4) / step);
+        y = (int)floor((h[1] / h[2] + 0.7) / step);
+        if (x >= 0 && y >= 0 && x < CELLS && y < CELLS)
+            counts[y][x]++, lost--;
+    }
+    for (int cell = 0; cell < CELLS * CELLS; cell++) {
+        double expected = 0;
+
+        for (int k = 0; k < FINE * FINE; k++)
+            expected += slope_density(ndf, -0.4 + step * (cell % CELLS + (k % FINE + 0.5) / FINE),
+                                      -0.7 + step * ((int)(cell / CELLS) + ((int)(k / FINE) + 0.5) / FINE));
+        expected *= SAMPLES * step * step / (FINE * FINE);
+        if (expected < 10)
+            continue;
+        chi_square += pow(counts[cell / CELLS][cell % CELLS] - expected, 2) / expected;
+        used++;
+    }
+    z = (cbrt(chi_square / used) - (1 - 2.0 / (9 * used))) / sqrt(2.0 / (9 * used));
+    ok(z < 3.7, "ridges: sampler's chi-square of %d cells is %.0f", used, chi_square);
+    ok(lost == 0, "ridges: %d samples lie where P is 0", lost);
+}
+
+static void test_file(const pe_ndf_table *table)
+{
+    char path[] = "/tmp/prefenv-test-table-XXXXXX";
+    pe_ndf ndf = { .kind = PE_NDF_TABLE, .table = table }, back = ndf;
+    pe_ndf_table *again = NULL;
+    pe_error error;
+    double worst = 0, alpha[2], alpha_again[2];
+    unsigned state = 8;
+
+    close(mkstemp(path));
+    need(pe_ndf_table_write(table, path, &error) == PE_OK && pe_ndf_table_read(path, &again, &error) == PE_OK, "%s",
+         error.message);
+    unlink(path);
+    back.table = again;
+    for (int k = 0; k < 10000; k++) {
+        double p = reference_random(&state) - 0.4, q = reference_random(&state) - 0.7;
+
+        worst = fmax(worst, fabs(slope_density(&ndf, p, q) - slope_density(&back, p, q)));
+    }
+    ok(worst < 1e-5, "written and read again it is the same within %.1e", worst);
+    ok(strcmp(pe_ndf_table_name(again), strrchr(path, '/') + 1) == 0 && !*pe_ndf_table_name(table),
+       "it is called as its file");
+    pe_ndf_table_alpha(table, alpha);
+    pe_ndf_table_alpha(again, alpha_again);
+    ok(fabs(alpha[0] - alpha_again[0]) < 1e-6 && fabs(alpha[1] - alpha_again[1]) < 1e-6, "its widths are %.3f, %.3f",
+       alpha[0], alpha[1]);
+    pe_ndf_table_free(again);
+}
+
+static void refuse(int width, int height, double low, double high, const float *density, const char *word)
+{
+    const double range[2] = { low, high }, sound[2] = { -1, 1 };
+    pe_ndf_table *table;
+    pe_error error = { PE_OK, "" };
+
+    ok(pe_ndf_table_create(width, height, range, sound, density, &table, &error) != PE_OK &&
+           strstr(error.message, word),
+       "refused: %s", error.message);
+}
+
+static void test_refusals(void)
+{
+    static const float good[4] = { 1, 1, 1, 1 }, negative[4] = { 1, -1, 1, 1 }, nan[4] = { 1, NAN, 1, 1 };
+    static const float infinite[4] = { 1, INFINITY, 1, 1 }, nothing[4] = { 0 };
+
+    refuse(1, 2, -1, 1, good, "1 x 2");
+    refuse(8192, 8192, -1, 1, good, "8192 x 8192");
+    refuse(2, 2, 1, -1, good, "from 1 to -1");
+    refuse(2, 2, 0, NAN, good, "from 0 to nan");
+    refuse(2, 2, -2000, 1, good, "-2000");
+    refuse(2, 2, -1, 1, negative, "is -1");
+    refuse(2, 2, -1, 1, nan, "is nan");
+    refuse(2, 2, -1, 1, infinite, "is inf");
+    refuse(2, 2, -1, 1, nothing, "0 everywhere");
+}
+
+static pe_maps *bake(const pe_env *env, const pe_ndf *ndf, pe_accuracy accuracy, int threads)
+{
+    pe_bake_options options = {
+        .surface.ndf = *ndf, .normals = 12, .width = 60, .height = 30, .accuracy = accuracy, .threads = threads
+    };
+    pe_maps *maps;
+    pe_error error;
+
+    need(pe_bake(env, &options, &maps, &error) == PE_OK, "%s", error.message);
+    return maps;
+}
+
+/* Relative L2 over the texels with |n.r| > cosine_min. */
+static double difference(const pe_maps *a, const pe_maps *b, double cosine_min)
+{
+    const pe_maps_info *info = pe_maps_get_info(a);
+    int texels = info->width * info->height;
+    double error2 = 0, norm2 = 0;
+
+    for (int k = 0; k < info->images * texels; k++) {
+        double n[3], r[3], theta;
+
+        reference_direction(info->width, info->height, k % texels % info->width, k % texels / info->width, r, &theta);
+        pe_maps_normal(a, k / texels, n);
+        for (int c = 0; c < 3 && fabs(pe_dot(n, r)) > cosine_min; c++) {
+            double truth = (double)pe_maps_image(b, k / texels)[3 * (k % texels) + c];
+
+            error2 += pow((double)pe_maps_image(a, k / texels)[3 * (k % texels) + c] - truth, 2);
+            norm2 += truth * truth;
+        }
+    }
+    return sqrt(error2 / norm2);
+}
+
+/* Between samples a Gaussian lies off its chord by step^2 / alpha^2 of its height at most; of 512 in 12 alpha that is
+ * 5e-4; what it does to a mean over the lobe is far less. */
+static void test_beckmann(double alpha_x, double alpha_y, int width)
+{
+    pe_ndf_table *table = make_beckmann(alpha_x, alpha_y, 512);
+    pe_ndf tabulated = { .kind = PE_NDF_TABLE, .table = table }, closed = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL };
+    float *rgb = reference_noise(width, width / 2, 12);
+    double alpha[2], error;
+    pe_maps *a, *b;
+    pe_env *env = NULL;
+
+    need(pe_env_create(width, width / 2, rgb, &env, NULL) == PE_OK, "no memory");
+    pe_ndf_table_alpha(table, alpha);
+    ok(fabs(alpha[0] / alpha_x - 1) < 1e-3 && fabs(alpha[1] / alpha_y - 1) < 1e-3, "beckmann %g, %g: widths %g, %g",
+       alpha_x, alpha_y, alpha[0], alpha[1]);
+    a = bake(env, &tabulated, PE_ACCURACY_EXACT, 0);
+    b = bake(env, &closed, PE_ACCURACY_EXACT, 0);
+    error = difference(a, b, 0.15);
+    ok(error < 1e-4, "beckmann %g, %g tabulated bakes as the closed form does: %.1e", alpha_x, alpha_y, error);
+    ok(pe_maps_get_info(a)->surface.ndf.kind == PE_NDF_TABLE && !pe_maps_get_info(a)->surface.ndf.table &&
+           pe_maps_get_info(a)->surface.ndf.alpha_x == alpha[0],
+       "the maps keep kind and widths, not the table");
+    pe_maps_free(a);
+    pe_maps_free(b);
+    pe_env_free(env);
+    pe_ndf_table_free(table);
+    free(rgb);
+}
+
+/* Production in single precision against pe_exact; threads change nothing. */
+static void test_bake(const pe_ndf *ndf)
+{
+    float *rgb = reference_noise(64, 32, 4);
+    pe_surface surface = { .ndf = *ndf };
+    pe_env *env = NULL;
+    pe_maps *maps, *alone;
+    double error2 = 0, norm2 = 0, rms;
+
+    need(pe_env_create(64, 32, rgb, &env, NULL) == PE_OK, "no memory");
+    maps = bake(env, ndf, PE_ACCURACY_EXACT, 0);
+    for (int texel = 0; texel < 60 * 30; texel++) {
+        double n[3], r[3], o[3], theta, exact[3];
+
+        reference_direction(60, 30, texel % 60, texel / 60, r, &theta);
+        pe_maps_normal(maps, 2, n);
+        pe_scale(pe_dot(r, n) > 0 ? 1 : -1, n, n);
+        pe_reflect(r, n, o);
+        pe_exact(env, &surface, plus_y, n, o, exact);
+        for (int c = 0; c < 3; c++) {
+            error2 += pow((double)pe_maps_image(maps, 2)[3 * texel + c] - exact[c], 2);
+            norm2 += exact[c] * exact[c];
+        }
+    }
+    rms = sqrt(error2 / norm2);
+    ok(rms < 3e-6, "ridges: bake and exact differ by %.1e", rms);
+    alone = bake(env, ndf, PE_ACCURACY_EXACT, 1);
+    ok(difference(maps, alone, 0) == 0, "ridges: one thread bakes the same bits");
+    pe_maps_free(maps);
+    pe_maps_free(alone);
+    pe_env_free(env);
+    free(rgb);
+}
+
+int main(void)
+{
+    pe_ndf_table *table = make_ridges();
+    pe_ndf ndf = { .kind = PE_NDF_TABLE, .table = table };
+
+    test_bilinear();
+    test_integral(&ndf);
+    test_sampler(&ndf);
+    test_file(table);
+    test_refusals();
+    test_bake(&ndf);
+    test_beckmann(0.1, 0.1, 256);
+    test_beckmann(0.1, 0.03, 256);
+    test_beckmann(0.01, 0.01, 1024);
+    pe_ndf_table_free(table);
+    return done_testing();
+}
