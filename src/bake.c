@@ -27,6 +27,7 @@ typedef struct side {
 typedef struct job {
     const pe_env *env;
     const pe_cloud *cloud;
+    const pe_lobe *lobe;
     double lobe_reach;
     pe_maps *maps;
     int image;
@@ -43,11 +44,11 @@ typedef struct batch {
     float *out[PE_FILTER_POINTS_MAX];
 } batch;
 
-static void store(const job *j, const double sums[4], const double world[3], double cos_o, float *out)
+static void store(const job *j, const double sums[4], const double world[3], const float o[3], float *out)
 {
     double rgb[3];
 
-    pe_filter_radiance(&j->maps->info.surface, j->env, sums, world, cos_o, rgb);
+    pe_filter_radiance(j->lobe, j->env, sums, world, o, rgb);
     for (int c = 0; c < 3; c++)
         out[c] = (float)rgb[c];
 }
@@ -56,9 +57,9 @@ static void finish(const job *j, const pe_lights *lights, batch *points)
 {
     double sums[PE_FILTER_POINTS_MAX][4];
 
-    pe_filter_points(&j->maps->info.surface, lights, (const float(*)[3])points->o, points->count, sums);
+    pe_filter_points(j->lobe, lights, (const float(*)[3])points->o, points->count, sums);
     for (size_t k = 0; k < points->count; k++)
-        store(j, sums[k], points->world[k], (double)points->o[k][2], points->out[k]);
+        store(j, sums[k], points->world[k], points->o[k], points->out[k]);
     points->count = 0;
 }
 
@@ -105,7 +106,7 @@ static void prepare_side(size_t which, void *data)
     side *s = &j->sides[which];
 
     pe_frame_make(pe_geodesic_vertex(j->maps->geodesic, 2 * j->image + (int)which), j->maps->info.direction, &s->frame);
-    pe_lights_fill(j->cloud, &s->frame, j->lobe_reach, &s->lights);
+    pe_lights_fill(j->cloud, j->lobe, &s->frame, j->lobe_reach, &s->lights);
 }
 
 static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *error)
@@ -129,8 +130,7 @@ static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *e
 static pe_status bake_baseline(const job *j, int threads, const pe_report *report, pe_error *error)
 {
     pe_head_on *head_on;
-    pe_status status =
-        pe_head_on_make(j->cloud, &j->maps->info.surface, j->maps->info.direction, j->lobe_reach, &head_on, error);
+    pe_status status = pe_head_on_make(j->cloud, j->lobe, j->maps->info.direction, j->lobe_reach, &head_on, error);
 
     if (status != PE_OK)
         return status;
@@ -168,22 +168,23 @@ static pe_status make_cloud(const pe_env *env, const pe_maps_info *info, pe_clou
     return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
 }
 
-static pe_status fill_maps(const pe_env *env, pe_maps *maps, const pe_bake_options *options, pe_error *error)
+static pe_status fill_maps(const pe_env *env, const pe_lobe *lobe, pe_maps *maps, const pe_bake_options *options,
+                           pe_error *error)
 {
     const pe_maps_info *info = &maps->info;
     pe_cloud cloud;
-    job j = { .env = env, .cloud = &cloud, .maps = maps };
+    job j = { .env = env, .cloud = &cloud, .lobe = lobe, .maps = maps };
     pe_report report = { options->progress, options->progress_data, 0, (double)info->images * info->height };
     pe_status status = make_cloud(env, info, &cloud, error);
 
     if (status != PE_OK)
         return status;
-    j.lobe_reach = pe_lobe_reach(&info->surface, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
+    j.lobe_reach = pe_lobe_reach(lobe, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
     status = info->method == PE_METHOD_BASELINE ? bake_baseline(&j, options->threads, &report, error)
                                                 : bake_images(&j, options->threads, &report, error);
     pe_cloud_free(&cloud);
     if (status == PE_OK && info->accuracy == PE_ACCURACY_FAST)
-        status = pe_estimate_error(env, maps, options->threads, &maps->info.error_estimate, error);
+        status = pe_estimate_error(env, maps, lobe, options->threads, &maps->info.error_estimate, error);
     if (status == PE_ERROR_CANCELLED)
         pe_fail(error, status, "cancelled");
     return status;
@@ -234,19 +235,22 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **o
 {
     pe_maps_info info;
     pe_maps *maps;
+    pe_lobe *lobe;
     pe_status status;
 
     choose_info(env, options, &info);
-    status = pe_surface_check(&info.surface, error);
-    if (status == PE_OK)
-        status = pe_maps_create(&info, &maps, error);
+    status = pe_lobe_make(&info.surface, options->threads, &lobe, error);
     if (status != PE_OK)
         return status;
-    status = fill_maps(env, maps, options, error);
-    maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
-    if (status == PE_OK)
-        *out = maps;
-    else
-        pe_maps_free(maps);
+    status = pe_maps_create(&info, &maps, error);
+    if (status == PE_OK) {
+        status = fill_maps(env, lobe, maps, options, error);
+        maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
+        if (status == PE_OK)
+            *out = maps;
+        else
+            pe_maps_free(maps);
+    }
+    pe_lobe_free(lobe);
     return status;
 }

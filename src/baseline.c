@@ -35,7 +35,7 @@ typedef struct cone {
 
 struct pe_head_on {
     const pe_cloud *cloud;
-    const pe_surface *surface;
+    const pe_lobe *lobe;
     double direction[3];
     double lobe_reach;
     double angle_max;  /* from the direction of a light to those of its texels */
@@ -113,15 +113,15 @@ static void set_block(pe_head_on *h, size_t index)
     set_cone(&h->cones[index], (const double(*)[3])directions, LANES);
 }
 
-pe_status pe_head_on_make(const pe_cloud *cloud, const pe_surface *surface, const double direction[3],
-                          double lobe_reach, pe_head_on **out, pe_error *error)
+pe_status pe_head_on_make(const pe_cloud *cloud, const pe_lobe *lobe, const double direction[3], double lobe_reach,
+                          pe_head_on **out, pe_error *error)
 {
     pe_head_on *h = calloc(1, sizeof *h);
 
     if (!h)
         return pe_fail_memory(error, "the lights of a baseline map");
     *h = (pe_head_on){ .cloud = cloud,
-                       .surface = surface,
+                       .lobe = lobe,
                        .direction = { direction[0], direction[1], direction[2] },
                        .lobe_reach = lobe_reach,
                        .count = (cloud->count + LANES - 1) / LANES };
@@ -371,7 +371,7 @@ typedef void isotropic_function(const block *blocks, const uint32_t *index, size
 static void filter_isotropic(const pe_head_on *h, isotropic_function *function, const list *l, const double (*world)[3],
                              size_t count, double (*sums)[4])
 {
-    float ax = (float)(M_LOG2E / (h->surface->ndf.alpha_x * h->surface->ndf.alpha_x));
+    float ax = (float)(M_LOG2E / (h->lobe->surface.ndf.alpha_x * h->lobe->surface.ndf.alpha_x));
 
     for (size_t first = 0; first < l->count; first += BLOCKS_AT_ONCE) {
         size_t some = l->count - first < BLOCKS_AT_ONCE ? l->count - first : BLOCKS_AT_ONCE;
@@ -437,7 +437,7 @@ static void add_turned(const pe_head_on *h, const block *blocks, const uint32_t 
             for (int lane = 0; lane < LANES; lane++)
                 values[c][first + lane] = c == 2;
     }
-    pe_filter_points(h->surface, &all, head_on, 1, some);
+    pe_filter_points(h->lobe, &all, head_on, 1, some);
     for (int c = 0; c < 4; c++)
         sums[c] += some[0][c];
 }
@@ -471,7 +471,7 @@ pe_status pe_head_on_filter(const pe_head_on *h, const double (*world)[3], size_
     int enough = look(h, world, count, &v);
 
     memset(sums, 0, count * sizeof *sums);
-    if (enough && is_isotropic(h->surface)) {
+    if (enough && is_isotropic(&h->lobe->surface)) {
         filter_isotropic(h, beckmann_whole, &v.whole, world, count, sums);
         filter_isotropic(h, beckmann_edge, &v.edge, world, count, sums);
     } else if (enough) {
@@ -494,6 +494,7 @@ typedef struct job {
 
 static pe_status fill_tile(const job *j, int left, int top, int right, int bottom)
 {
+    static const float head_on[3] = { 0, 0, 1 };
     double world[TILE * TILE][3], sums[TILE * TILE][4], rgb[3];
     const pe_maps_info *info = &j->maps->info;
     size_t count = 0, k = 0;
@@ -509,7 +510,7 @@ static pe_status fill_tile(const job *j, int left, int top, int right, int botto
         for (int x = left; x < right; x++, k++) {
             float *out = j->maps->rgb + 3 * ((size_t)y * (size_t)info->width + (size_t)x);
 
-            pe_filter_radiance(j->head_on->surface, j->head_on->cloud->env, sums[k], world[k], 1, rgb);
+            pe_filter_radiance(j->head_on->lobe, j->head_on->cloud->env, sums[k], world[k], head_on, rgb);
             for (int c = 0; c < 3; c++)
                 out[c] = (float)rgb[c];
         }

@@ -10,9 +10,9 @@
 /* A cloud of lights arranged for viewers who look along the normal, n = o = w.  Immutable once made. */
 typedef struct pe_head_on pe_head_on;
 
-/* lobe_reach: as for pe_lights_fill.  cloud and surface must outlive it. */
-pe_status pe_head_on_make(const pe_cloud *cloud, const pe_surface *surface, const double direction[3],
-                          double lobe_reach, pe_head_on **head_on, pe_error *error);
+/* lobe_reach: as for pe_lights_fill.  cloud and lobe must outlive it. */
+pe_status pe_head_on_make(const pe_cloud *cloud, const pe_lobe *lobe, const double direction[3], double lobe_reach,
+                          pe_head_on **head_on, pe_error *error);
 void pe_head_on_free(pe_head_on *head_on); /* NULL is allowed */
 
 #define PE_HEAD_ON_POINTS_MAX 64 /* most directions in one call */

@@ -18,6 +18,7 @@
 typedef struct trial {
     const pe_cloud *cloud;
     const pe_maps *maps;
+    const pe_lobe *lobe;
     const pe_head_on *head_on; /* NULL for maps of representative normals */
     int index;
     double error2, norm2;
@@ -25,11 +26,11 @@ typedef struct trial {
 } trial;
 
 /* Adds the squared difference of one texel, looking along `world`, done again as `sums`. */
-static void compare(trial *t, const double world[3], double cos_o, const float *baked, const double sums[4])
+static void compare(trial *t, const double world[3], const float o[3], const float *baked, const double sums[4])
 {
     double exact[3];
 
-    pe_filter_radiance(&t->maps->info.surface, t->cloud->env, sums, world, cos_o, exact);
+    pe_filter_radiance(t->lobe, t->cloud->env, sums, world, o, exact);
     for (int c = 0; c < 3; c++) {
         double difference = (double)baked[c] - exact[c];
 
@@ -61,8 +62,8 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
         if (!(pe_dot(frame->n, world) > COSINE_MIN))
             continue;
         pe_mirror_viewer(frame, world, o[0]);
-        pe_filter_points(&t->maps->info.surface, lights, (const float(*)[3])o, 1, sums);
-        compare(t, world, (double)o[0][2], pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
+        pe_filter_points(t->lobe, lights, (const float(*)[3])o, 1, sums);
+        compare(t, world, o[0], pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -72,13 +73,15 @@ static void try_normal(trial *t, pe_lights *lights)
     pe_frame frame;
 
     pe_frame_make(pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame);
-    pe_lights_fill(t->cloud, &frame, pe_lobe_reach(&t->maps->info.surface, PE_LOBE_CUTOFF), lights);
+    pe_lights_fill(t->cloud, t->lobe, &frame, pe_lobe_reach(t->lobe, PE_LOBE_CUTOFF), lights);
     try_texels(t, vertex / 2, &frame, lights);
 }
 
 /* Of a baseline map, each texel has its own frame. */
 static void try_baseline(trial *t)
 {
+    static const float head_on[3] = { 0, 0, 1 };
+
     for (int k = 0; k < POINTS_PER_FRAME / FRAMES && !t->failed; k++) {
         double world[1][3], sums[1][4];
         int x, y;
@@ -87,7 +90,7 @@ static void try_baseline(trial *t)
         pe_grid_direction(&t->maps->grid, x, y, world[0]);
         t->failed = pe_head_on_filter(t->head_on, (const double(*)[3])world, 1, sums, NULL) != PE_OK;
         if (!t->failed)
-            compare(t, world[0], 1, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
+            compare(t, world[0], head_on, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
     }
 }
 
@@ -120,9 +123,9 @@ static double run_trials(trial trials[FRAMES], int threads, int *failed)
     return norm2 > 0 ? sqrt(error2 / norm2) : 0;
 }
 
-pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, int threads, double *estimate, pe_error *error)
+pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, const pe_lobe *lobe, int threads, double *estimate,
+                            pe_error *error)
 {
-    const pe_surface *surface = &maps->info.surface;
     trial trials[FRAMES];
     pe_head_on *head_on = NULL;
     pe_cloud cloud;
@@ -133,11 +136,11 @@ pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, int threads,
     if (status != PE_OK)
         return status;
     if (!maps->geodesic)
-        status = pe_head_on_make(&cloud, surface, maps->info.direction, pe_lobe_reach(surface, PE_LOBE_CUTOFF),
-                                 &head_on, error);
+        status =
+            pe_head_on_make(&cloud, lobe, maps->info.direction, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), &head_on, error);
     if (status == PE_OK) {
         for (int k = 0; k < FRAMES; k++)
-            trials[k] = (trial){ .cloud = &cloud, .maps = maps, .head_on = head_on, .index = k };
+            trials[k] = (trial){ .cloud = &cloud, .maps = maps, .lobe = lobe, .head_on = head_on, .index = k };
         found = run_trials(trials, threads, &failed);
         if (failed)
             status = pe_fail_memory(error, "the estimate of the error");

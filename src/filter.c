@@ -213,10 +213,12 @@ static void add_upper_part(filling *f, const pe_cloud *cloud, const pe_rect *are
     }
 }
 
-void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights)
+void pe_lights_fill(const pe_cloud *cloud, const pe_lobe *lobe, const pe_frame *frame, double lobe_reach,
+                    pe_lights *lights)
 {
     filling f = { frame, lobe_reach, lights, 0 };
 
+    (void)lobe;
     lights->blocks = 0;
     for (size_t k = 0; k < cloud->count; k++) {
         const double world[3] = { cloud->x[k], cloud->y[k], cloud->z[k] };
@@ -233,36 +235,7 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_re
     }
 }
 
-double pe_lobe_reach(const pe_surface *surface, double limit)
-{
-    return 2 * atan(pe_ndf_reach(&surface->ndf, limit));
-}
-
 /* ---- the hot loop ---- */
-
-/* An NDF in single precision. */
-typedef struct lobe {
-    float x, y; /* what p^2 and q^2 are multiplied with: 1 / alpha^2, times log2(e) before an exponential */
-    const pe_ndf_table *table;
-    float scale_x, scale_y, offset_x, offset_y; /* from slopes to places in the table */
-} lobe;
-
-static lobe make_lobe(const pe_ndf *ndf)
-{
-    double unit = ndf->kind == PE_NDF_GGX ? 1 : M_LOG2E;
-    lobe l = { .table = ndf->table };
-
-    if (ndf->kind == PE_NDF_TABLE) {
-        l.scale_x = (float)(1 / ndf->table->p_step);
-        l.scale_y = (float)(1 / ndf->table->q_step);
-        l.offset_x = (float)(0.5 - ndf->table->p_min / ndf->table->p_step);
-        l.offset_y = (float)(0.5 - ndf->table->q_min / ndf->table->q_step);
-    } else {
-        l.x = (float)(unit / (ndf->alpha_x * ndf->alpha_x));
-        l.y = (float)(unit / (ndf->alpha_y * ndf->alpha_y));
-    }
-    return l;
-}
 
 /* The sum of a viewer's direction and of each lane's light's. */
 typedef struct half {
@@ -302,7 +275,7 @@ INLINE void log1p_quotient(floats *t)
     *t = (floats)(((ints)g & small) | ((ints)large & ~small)) / divisor;
 }
 
-INLINE void beckmann(const lobe *l, const half *h, floats *d)
+INLINE void beckmann(const pe_lobe *l, const half *h, floats *d)
 {
     floats inverse = 1.0f / (h->z * h->z);
     floats xx = h->x * h->x, yy = h->y * h->y;
@@ -313,7 +286,7 @@ INLINE void beckmann(const lobe *l, const half *h, floats *d)
     *d = e * (cos2_inverse * cos2_inverse);
 }
 
-INLINE void ggx(const lobe *l, const half *h, floats *d)
+INLINE void ggx(const pe_lobe *l, const half *h, floats *d)
 {
     floats xx = h->x * h->x, yy = h->y * h->y, zz = h->z * h->z;
     floats root = (xx + yy + zz) / (xx * l->x + yy * l->y + zz);
@@ -321,7 +294,7 @@ INLINE void ggx(const lobe *l, const half *h, floats *d)
     *d = root * root;
 }
 
-INLINE void phong(const lobe *l, const half *h, floats *d)
+INLINE void phong(const pe_lobe *l, const half *h, floats *d)
 {
     floats inverse = 1.0f / (h->z * h->z);
     floats xx = h->x * h->x, yy = h->y * h->y;
@@ -355,9 +328,9 @@ INLINE void gather(const float *from, const ints *places, floats *out)
 }
 
 /* Slopes beyond the frame of zeros find the zeros. */
-INLINE void table(const lobe *l, const half *h, floats *d)
+INLINE void table(const pe_lobe *l, const half *h, floats *d)
 {
-    const pe_ndf_table *t = l->table;
+    const pe_ndf_table *t = l->surface.ndf.table;
     const float *density = t->density;
     const int row = t->row;
     const float last_x = (float)(t->width + 1), last_y = (float)(t->height + 1);
@@ -386,7 +359,7 @@ INLINE void table(const lobe *l, const half *h, floats *d)
 }
 
 /* Adds one block's lights, seen from o, to the sums.  `kind` is a constant where this is inlined. */
-INLINE void add_block(pe_ndf_kind kind, const lobe *l, const float *values, const float o[3], lane_sums *sums)
+INLINE void add_block(pe_ndf_kind kind, const pe_lobe *l, const float *values, const float o[3], lane_sums *sums)
 {
     floats weight = sums->weight, r = sums->r, g = sums->g, b = sums->b;
 
@@ -439,7 +412,7 @@ INLINE int matters(const pe_light_block *cone, const float o[3])
     return cone->axis[2] * o[2] - cone->axis[0] * o[0] - cone->axis[1] * o[1] >= cone->cos_reach;
 }
 
-INLINE void add_points(pe_ndf_kind kind, const lobe *l, const pe_lights *lights, const float (*o)[3], size_t count,
+INLINE void add_points(pe_ndf_kind kind, const pe_lobe *l, const pe_lights *lights, const float (*o)[3], size_t count,
                        double (*sums)[4])
 {
     lane_sums lanes[PE_FILTER_POINTS_MAX];
@@ -461,7 +434,7 @@ INLINE void add_points(pe_ndf_kind kind, const lobe *l, const pe_lights *lights,
 
 /* A loop for each NDF. */
 #define POINTS(name, kind) \
-    CLONES static void name(const lobe *l, const pe_lights *lights, const float(*o)[3], size_t count, \
+    CLONES static void name(const pe_lobe *l, const pe_lights *lights, const float(*o)[3], size_t count, \
                             double(*sums)[4]) \
     { \
         add_points(kind, l, lights, o, count, sums); \
@@ -472,24 +445,22 @@ POINTS(ggx_points, PE_NDF_GGX)
 POINTS(phong_points, PE_NDF_PHONG)
 POINTS(table_points, PE_NDF_TABLE)
 
-void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const float (*o)[3], size_t count,
+void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float (*o)[3], size_t count,
                       double (*sums)[4])
 {
-    lobe l = make_lobe(&surface->ndf);
-
     memset(sums, 0, count * sizeof *sums);
-    switch (surface->ndf.kind) {
+    switch (lobe->surface.ndf.kind) {
     case PE_NDF_BECKMANN:
-        beckmann_points(&l, lights, o, count, sums);
+        beckmann_points(lobe, lights, o, count, sums);
         break;
     case PE_NDF_GGX:
-        ggx_points(&l, lights, o, count, sums);
+        ggx_points(lobe, lights, o, count, sums);
         break;
     case PE_NDF_PHONG:
-        phong_points(&l, lights, o, count, sums);
+        phong_points(lobe, lights, o, count, sums);
         break;
     case PE_NDF_TABLE:
-        table_points(&l, lights, o, count, sums);
+        table_points(lobe, lights, o, count, sums);
         break;
     }
 }
@@ -504,11 +475,11 @@ void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
     o[2] = (float)w[2];
 }
 
-void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
-                        double cos_o, double rgb[3])
+void pe_filter_radiance(const pe_lobe *lobe, const pe_env *env, const double sums[4], const double world[3],
+                        const float o[3], double rgb[3])
 {
-    (void)surface;
-    (void)cos_o;
+    (void)lobe;
+    (void)o;
     if (sums[0] > 0)
         pe_scale(1 / sums[0], sums + 1, rgb);
     else

@@ -3,7 +3,7 @@
 #define PE_FILTER_H
 
 #include "env.h"
-#include "ndf.h"
+#include "lobe.h"
 #include "prefenv.h"
 #include "vector.h"
 
@@ -58,15 +58,12 @@ void pe_lights_free(pe_lights *lights);
 /* Fills lights with the hemisphere of the frame's normal.  Of a light whose texels lie on both sides of the horizon,
  * those above make a light of their own, so that nothing from behind the surface counts.  lobe_reach: an angle from
  * the mirror direction beyond which a light does not matter. */
-void pe_lights_fill(const pe_cloud *cloud, const pe_frame *frame, double lobe_reach, pe_lights *lights);
-
-/* The angle from the mirror direction beyond which half vectors are steeper than pe_ndf_reach; at most pi.  A half
- * vector moves by at least half of what its light moves, since midpoints on a sphere are never nearer than half. */
-double pe_lobe_reach(const pe_surface *surface, double limit);
+void pe_lights_fill(const pe_cloud *cloud, const pe_lobe *lobe, const pe_frame *frame, double lobe_reach,
+                    pe_lights *lights);
 
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,
  * each times D(h). A common factor of D is left out: only ratios of sums mean anything. */
-void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const float (*o)[3], size_t count,
+void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float (*o)[3], size_t count,
                       double (*sums)[4]);
 
 #define PE_FILTER_POINTS_MAX 64 /* most points in one call */
@@ -75,9 +72,9 @@ void pe_filter_points(const pe_surface *surface, const pe_lights *lights, const 
  * o = (-x, -y, z). */
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3]);
 
-/* What the viewer sees who would see `world` in a mirror whose normal is cos_o from it: the quotient of Eq. 5; where no
- * light has weight, what a mirror shows. */
-void pe_filter_radiance(const pe_surface *surface, const pe_env *env, const double sums[4], const double world[3],
-                        double cos_o, double rgb[3]);
+/* What the viewer o (tangent frame) sees who would see `world` in a mirror: the quotient of Eq. 5; where no light has
+ * weight, what a mirror shows. */
+void pe_filter_radiance(const pe_lobe *lobe, const pe_env *env, const double sums[4], const double world[3],
+                        const float o[3], double rgb[3]);
 
 #endif
