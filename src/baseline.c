@@ -7,8 +7,9 @@
  * so that the weight of an isotropic lobe depends on c^2 alone, and no tangent frame is needed.  Any other surface is
  * filtered as everywhere else, in the frame of each texel.
  *
- * Texels are done in tiles.  What is out of a tile's reach is left out block by block; of what lies astride a horizon
- * of the tile's, texels count one by one, so that nothing from behind the surface does. */
+ * Texels are done in tiles.  What is out of a tile's reach is left out block by block; of what may lie behind the
+ * surface of one of its texels, what does is left out one by one: lights, or, where the lobe is so wide that it matters
+ * which part of a light lies astride the horizon, the texels that a light stands for. */
 #include "baseline.h"
 
 #include "lanes.h"
@@ -27,10 +28,10 @@ typedef struct block {
     float values[4][LANES];
 } block;
 
-/* All lights of a block lie within `radius` of axis. */
+/* All lights of a block lie within `radius` of axis, and all their texels within `extent`. */
 typedef struct cone {
     double axis[3];
-    double radius;
+    double radius, extent;
 } cone;
 
 struct pe_head_on {
@@ -38,8 +39,8 @@ struct pe_head_on {
     const pe_lobe *lobe;
     double direction[3];
     double lobe_reach;
-    double angle_max;  /* from the direction of a light to those of its texels */
     double radius_max; /* of the cones */
+    int takes_apart;   /* lights astride a horizon are taken apart into their texels */
     size_t count;
     block *blocks;
     cone *cones;
@@ -87,7 +88,7 @@ static void set_cone(cone *to, const double (*directions)[3], size_t count)
 {
     double sum[3] = { 0 }, narrowest = 1;
 
-    *to = (cone){ { 0, 0, 1 }, M_PI };
+    *to = (cone){ { 0, 0, 1 }, M_PI, M_PI };
     for (size_t k = 0; k < count; k++)
         for (int c = 0; c < 3; c++)
             sum[c] += directions[k][c];
@@ -96,13 +97,20 @@ static void set_cone(cone *to, const double (*directions)[3], size_t count)
     pe_normalize(sum, to->axis);
     for (size_t k = 0; k < count; k++)
         narrowest = fmin(narrowest, pe_dot(to->axis, directions[k]));
-    to->radius = acos(fmax(narrowest, -1)) + 1e-6;
+    to->radius = to->extent = acos(fmax(narrowest, -1)) + 1e-6;
+}
+
+/* The angle that a chord of the unit sphere is seen under. */
+static double angle_of(double chord)
+{
+    return 2 * asin(fmin(chord / 2, 1));
 }
 
 static void set_block(pe_head_on *h, size_t index)
 {
     double directions[LANES][3];
     size_t first = index * LANES;
+    cone *at = &h->cones[index];
     int used = 0;
 
     for (; used < LANES && first + (size_t)used < h->cloud->count; used++)
@@ -110,8 +118,16 @@ static void set_block(pe_head_on *h, size_t index)
     pad(&h->blocks[index], used);
     for (int lane = 0; lane < LANES; lane++)
         get_direction(&h->blocks[index], lane, directions[lane]);
-    set_cone(&h->cones[index], (const double(*)[3])directions, LANES);
+    set_cone(at, (const double(*)[3])directions, LANES);
+    for (int lane = 0; lane < used && h->takes_apart; lane++) {
+        double apart = acos(fmin(pe_dot(at->axis, directions[lane]), 1));
+
+        at->extent = fmax(at->extent, apart + angle_of((double)h->cloud->chord[first + (size_t)lane]));
+    }
 }
+
+/* Beyond exp(-7), a thousandth of the mirror's weight, it does not matter on which side of a light the horizon is. */
+#define LIMIT_OF_HORIZON 7
 
 pe_status pe_head_on_make(const pe_cloud *cloud, const pe_lobe *lobe, const double direction[3], double lobe_reach,
                           pe_head_on **out, pe_error *error)
@@ -124,15 +140,14 @@ pe_status pe_head_on_make(const pe_cloud *cloud, const pe_lobe *lobe, const doub
                        .lobe = lobe,
                        .direction = { direction[0], direction[1], direction[2] },
                        .lobe_reach = lobe_reach,
-                       .count = (cloud->count + LANES - 1) / LANES };
+                       .count = (cloud->count + LANES - 1) / LANES,
+                       .takes_apart = cloud->chord && pe_lobe_reach(lobe, LIMIT_OF_HORIZON) > M_PI / 2 };
     h->blocks = aligned_alloc(64, h->count * sizeof *h->blocks);
     h->cones = malloc(h->count * sizeof *h->cones);
     if (!h->blocks || !h->cones) {
         pe_head_on_free(h);
         return pe_fail_memory(error, "the lights of a baseline map");
     }
-    for (size_t k = 0; cloud->chord && k < cloud->count; k++)
-        h->angle_max = fmax(h->angle_max, 2 * asin(fmin((double)cloud->chord[k] / 2, 1)));
     for (size_t k = 0; k < h->count; k++) {
         set_block(h, k);
         h->radius_max = fmax(h->radius_max, h->cones[k].radius);
@@ -159,11 +174,12 @@ typedef struct list {
     size_t count;
 } list;
 
-/* `whole` lie above the horizon of every texel of the tile, `edge` perhaps not.  The edge blocks are among those of
- * the cloud, or `parts`, where lights that stand for several texels were taken apart. */
+/* `whole` are above the horizon of every texel of the tile, or lights of several texels of which it does not matter;
+ * `edge` perhaps not.  The edge blocks are among those of the cloud, or `parts`, where lights were taken apart. */
 typedef struct view {
     cone tile;
     double cos_farthest; /* blocks beyond are out of reach */
+    double cos_reach;    /* lights beyond are */
     list whole, edge;
     block *parts;
     size_t parts_count, parts_room;
@@ -216,7 +232,7 @@ static int add_texels(view *v, const pe_env *env, const pe_rect *area)
     return 1;
 }
 
-/* The lights of a block some of which lie astride a horizon of the tile's. */
+/* Of a block some of whose lights may lie astride a horizon of the tile's, those within reach. */
 static int add_parts(view *v, const pe_cloud *cloud, const block *b, size_t first)
 {
     double tile_chord = 2 * sin(v->tile.radius / 2) + 1e-6;
@@ -224,10 +240,13 @@ static int add_parts(view *v, const pe_cloud *cloud, const block *b, size_t firs
     for (int lane = 0; lane < LANES && first + (size_t)lane < cloud->count; lane++) {
         size_t light = first + (size_t)lane;
         const float values[4] = { b->values[0][lane], b->values[1][lane], b->values[2][lane], b->values[3][lane] };
-        double direction[3];
+        double direction[3], cosine;
 
         get_direction(b, lane, direction);
-        if (fabs(pe_dot(v->tile.axis, direction)) <= (double)cloud->chord[light] + tile_chord) {
+        cosine = pe_dot(v->tile.axis, direction);
+        if (cosine < v->cos_reach)
+            continue;
+        if (fabs(cosine) <= (double)cloud->chord[light] + tile_chord) {
             if (!add_texels(v, cloud->env, &cloud->areas[light]))
                 return 0;
         } else if (!add_part(v, direction, values)) {
@@ -248,12 +267,12 @@ static int look_at(const pe_head_on *h, size_t k, view *v)
         return 1;
     apart = acos(fmin(cosine, 1));
     spread = at->radius + v->tile.radius;
-    slack = spread + h->angle_max + 1e-6;
+    slack = at->extent + v->tile.radius + 1e-6;
     if (apart > h->lobe_reach + spread || apart > M_PI / 2 + slack)
         return 1;
-    if (apart >= M_PI / 2 - slack && h->cloud->chord)
+    if (apart >= M_PI / 2 - slack && h->takes_apart)
         return add_parts(v, h->cloud, &h->blocks[k], k * LANES);
-    to = apart < M_PI / 2 - slack ? &v->whole : &v->edge;
+    to = apart < M_PI / 2 - slack || h->cloud->chord ? &v->whole : &v->edge;
     to->index[to->count++] = (uint32_t)k;
     return 1;
 }
@@ -281,15 +300,16 @@ static int look(const pe_head_on *h, const double (*world)[3], size_t count, vie
 {
     *v = (view){ 0 };
     set_cone(&v->tile, world, count);
+    v->cos_reach = cos(fmin(h->lobe_reach + v->tile.radius, M_PI)) - 1e-9;
     v->cos_farthest = cos(fmin(h->lobe_reach + v->tile.radius + h->radius_max, M_PI)) - 1e-9;
     if (!list_make(h->blocks, h->count, &v->whole))
         return 0;
-    if (!h->cloud->chord && !list_make(h->blocks, h->count, &v->edge))
+    if (!h->takes_apart && !list_make(h->blocks, h->count, &v->edge))
         return 0;
     for (size_t k = 0; k < h->count; k++)
         if (!look_at(h, k, v))
             return 0;
-    return !h->cloud->chord || take_parts(v);
+    return !h->takes_apart || take_parts(v);
 }
 
 /* ---- isotropic lobes ---- */
@@ -306,13 +326,21 @@ INLINE floats chord_squared(const block *b, const float w[3])
     return x * x + y * y + z * z;
 }
 
-/* D / 16, up to the constant that cancels.  ax: log2(e) / alpha^2. */
-INLINE floats beckmann(floats c2, float ax)
+/* D as a function of c^2, up to a factor that cancels.  Beckmann's width is log2(e) / alpha^2. */
+INLINE floats beckmann(floats c2, float width)
 {
-    floats inverse = 1.0f / (4.0f - c2), d = c2 * inverse * ax;
+    floats inverse = 1.0f / (4.0f - c2), d = c2 * inverse * width;
 
     exp2_of_negative(&d, (float)(PE_LOBE_CUTOFF * M_LOG2E));
     return d * (inverse * inverse);
+}
+
+/* 1 / (cos^2 (1 + tan^2 / alpha^2))^2, whose width is alpha^2. */
+INLINE floats ggx(floats c2, float width)
+{
+    floats root = 1.0f / (c2 * (1.0f - width) + 4.0f * width);
+
+    return root * root;
 }
 
 INLINE void add_weighted(const block *b, floats d, lane_sums *sums)
@@ -321,7 +349,13 @@ INLINE void add_weighted(const block *b, floats d, lane_sums *sums)
         sums->value[c] += d * load(b->values[c]);
 }
 
-/* Keeps of d what belongs to lights above the horizon. */
+/* Keeps of d what belongs to lights above the horizon, c^2 < 2. */
+INLINE floats above(floats c2, floats d)
+{
+    return (floats)((ints)d & (c2 < 2.0f));
+}
+
+/* The same where it has to be right for lights on the horizon itself. */
 INLINE floats above_horizon(const block *b, const double w[3], floats d)
 {
     doubles x, y, z;
@@ -334,26 +368,34 @@ INLINE floats above_horizon(const block *b, const double w[3], floats d)
     return (floats)((ints)d & __builtin_convertvector(above, ints));
 }
 
-CLONES static void beckmann_whole(const block *blocks, const uint32_t *index, size_t count, const double w[3], float ax,
-                                  lane_sums *sums)
-{
-    const float rounded[3] = { (float)w[0], (float)w[1], (float)w[2] };
-
-    for (size_t k = 0; k < count; k++)
-        add_weighted(&blocks[index[k]], beckmann(chord_squared(&blocks[index[k]], rounded), ax), sums);
-}
-
-CLONES static void beckmann_edge(const block *blocks, const uint32_t *index, size_t count, const double w[3], float ax,
-                                 lane_sums *sums)
-{
-    const float rounded[3] = { (float)w[0], (float)w[1], (float)w[2] };
-
-    for (size_t k = 0; k < count; k++) {
-        const block *b = &blocks[index[k]];
-
-        add_weighted(b, above_horizon(b, w, beckmann(chord_squared(b, rounded), ax)), sums);
+/* Adds blocks, seen from w, to the sums: `whole` and `edge` as in a view. */
+#define ISOTROPIC(lobe) \
+    CLONES static void lobe##_whole(const block *blocks, const uint32_t *index, size_t count, const double w[3], \
+                                    float width, lane_sums *sums) \
+    { \
+        const float rounded[3] = { (float)w[0], (float)w[1], (float)w[2] }; \
+\
+        for (size_t k = 0; k < count; k++) { \
+            const block *b = &blocks[index[k]]; \
+            floats c2 = chord_squared(b, rounded); \
+\
+            add_weighted(b, above(c2, lobe(c2, width)), sums); \
+        } \
+    } \
+    CLONES static void lobe##_edge(const block *blocks, const uint32_t *index, size_t count, const double w[3], \
+                                   float width, lane_sums *sums) \
+    { \
+        const float rounded[3] = { (float)w[0], (float)w[1], (float)w[2] }; \
+\
+        for (size_t k = 0; k < count; k++) { \
+            const block *b = &blocks[index[k]]; \
+\
+            add_weighted(b, above_horizon(b, w, lobe(chord_squared(b, rounded), width)), sums); \
+        } \
     }
-}
+
+ISOTROPIC(beckmann)
+ISOTROPIC(ggx)
 
 static void flush(const lane_sums *lanes, double sums[4])
 {
@@ -363,23 +405,21 @@ static void flush(const lane_sums *lanes, double sums[4])
 }
 
 /* So many blocks stay in the nearest cache for all texels of a tile, and sum to single precision. */
-#define BLOCKS_AT_ONCE 32
+#define BLOCKS_AT_ONCE 64
 
-typedef void isotropic_function(const block *blocks, const uint32_t *index, size_t count, const double w[3], float ax,
-                                lane_sums *sums);
+typedef void isotropic_function(const block *blocks, const uint32_t *index, size_t count, const double w[3],
+                                float width, lane_sums *sums);
 
-static void filter_isotropic(const pe_head_on *h, isotropic_function *function, const list *l, const double (*world)[3],
+static void filter_isotropic(isotropic_function *function, float width, const list *l, const double (*world)[3],
                              size_t count, double (*sums)[4])
 {
-    float ax = (float)(M_LOG2E / (h->lobe->surface.ndf.alpha_x * h->lobe->surface.ndf.alpha_x));
-
     for (size_t first = 0; first < l->count; first += BLOCKS_AT_ONCE) {
         size_t some = l->count - first < BLOCKS_AT_ONCE ? l->count - first : BLOCKS_AT_ONCE;
 
         for (size_t k = 0; k < count; k++) {
             lane_sums lanes = { 0 };
 
-            function(l->blocks, l->index + first, some, world[k], ax, &lanes);
+            function(l->blocks, l->index + first, some, world[k], width, &lanes);
             flush(&lanes, sums[k]);
         }
     }
@@ -417,8 +457,8 @@ static void turn_block(const block *b, const pe_frame *frame, float (*values)[PE
     }
 }
 
-static void add_turned(const pe_head_on *h, const block *blocks, const uint32_t *index, size_t count,
-                       const double world[3], turned *lights, double sums[4])
+static void add_turned(const pe_lobe *lobe, const double brush[3], const block *blocks, const uint32_t *index,
+                       size_t count, const double world[3], turned *lights, double sums[4])
 {
     static const float head_on[1][3] = { { 0, 0, 1 } };
     pe_lights all = { (count + BLOCKS_PER_LIGHT_BLOCK - 1) / BLOCKS_PER_LIGHT_BLOCK, &lights->values[0][0][0],
@@ -426,7 +466,7 @@ static void add_turned(const pe_head_on *h, const block *blocks, const uint32_t 
     double some[1][4];
     pe_frame frame;
 
-    pe_frame_make(world, h->direction, &frame);
+    pe_frame_make(world, brush, &frame);
     for (size_t k = 0; k < all.blocks * BLOCKS_PER_LIGHT_BLOCK; k++) {
         float(*values)[PE_LIGHT_BLOCK] = lights->values[k / BLOCKS_PER_LIGHT_BLOCK];
         int first = (int)(k % BLOCKS_PER_LIGHT_BLOCK) * LANES;
@@ -437,12 +477,13 @@ static void add_turned(const pe_head_on *h, const block *blocks, const uint32_t 
             for (int lane = 0; lane < LANES; lane++)
                 values[c][first + lane] = c == 2;
     }
-    pe_filter_points(h->lobe, &all, head_on, 1, some);
+    pe_filter_points(lobe, &all, head_on, 1, some);
     for (int c = 0; c < 4; c++)
         sums[c] += some[0][c];
 }
 
-static void filter_any(const pe_head_on *h, const list *l, const double (*world)[3], size_t count, double (*sums)[4])
+static void filter_any(const pe_lobe *lobe, const double brush[3], const list *l, const double (*world)[3],
+                       size_t count, double (*sums)[4])
 {
     const size_t at_once = (size_t)LIGHT_BLOCKS * BLOCKS_PER_LIGHT_BLOCK;
     turned lights;
@@ -451,17 +492,29 @@ static void filter_any(const pe_head_on *h, const list *l, const double (*world)
         lights.cones[k] = (pe_light_block){ { 0, 0, 1 }, -2 };
     for (size_t first = 0; first < l->count; first += at_once)
         for (size_t k = 0; k < count; k++)
-            add_turned(h, l->blocks, l->index + first, l->count - first < at_once ? l->count - first : at_once,
-                       world[k], &lights, sums[k]);
+            add_turned(lobe, brush, l->blocks, l->index + first,
+                       l->count - first < at_once ? l->count - first : at_once, world[k], &lights, sums[k]);
 }
 
 /* ---- a tile ---- */
 
-static int is_isotropic(const pe_surface *surface)
+static void filter_view(const pe_lobe *lobe, const double brush[3], const view *v, const double (*world)[3],
+                        size_t count, double (*sums)[4])
 {
-    const pe_ndf *ndf = &surface->ndf;
+    const pe_ndf *ndf = &lobe->surface.ndf;
+    double alpha2 = ndf->alpha_x * ndf->alpha_x;
+    int isotropic = ndf->alpha_x == ndf->alpha_y && lobe->surface.weight == PE_WEIGHT_NDF;
 
-    return ndf->kind == PE_NDF_BECKMANN && ndf->alpha_x == ndf->alpha_y && surface->weight == PE_WEIGHT_NDF;
+    if (isotropic && ndf->kind == PE_NDF_BECKMANN) {
+        filter_isotropic(beckmann_whole, (float)(M_LOG2E / alpha2), &v->whole, world, count, sums);
+        filter_isotropic(beckmann_edge, (float)(M_LOG2E / alpha2), &v->edge, world, count, sums);
+    } else if (isotropic && ndf->kind == PE_NDF_GGX) {
+        filter_isotropic(ggx_whole, (float)alpha2, &v->whole, world, count, sums);
+        filter_isotropic(ggx_edge, (float)alpha2, &v->edge, world, count, sums);
+    } else {
+        filter_any(lobe, brush, &v->whole, world, count, sums);
+        filter_any(lobe, brush, &v->edge, world, count, sums);
+    }
 }
 
 pe_status pe_head_on_filter(const pe_head_on *h, const double (*world)[3], size_t count, double (*sums)[4],
@@ -471,13 +524,8 @@ pe_status pe_head_on_filter(const pe_head_on *h, const double (*world)[3], size_
     int enough = look(h, world, count, &v);
 
     memset(sums, 0, count * sizeof *sums);
-    if (enough && is_isotropic(&h->lobe->surface)) {
-        filter_isotropic(h, beckmann_whole, &v.whole, world, count, sums);
-        filter_isotropic(h, beckmann_edge, &v.edge, world, count, sums);
-    } else if (enough) {
-        filter_any(h, &v.whole, world, count, sums);
-        filter_any(h, &v.edge, world, count, sums);
-    }
+    if (enough)
+        filter_view(h->lobe, h->direction, &v, world, count, sums);
     view_free(&v);
     return enough ? PE_OK : pe_fail_memory(error, "what a tile of a baseline map sees");
 }
