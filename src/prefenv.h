@@ -183,12 +183,12 @@ pe_status pe_surface_check(const pe_surface *surface, pe_error *error);
 /* ---- measured surfaces ----------------------------------------------------------------------------------------
  *
  * A machined surface as an instrument measured it, or a map of it, is a picture of the surface seen from outside.  Its
- * columns run along the tangent t, which is the brush direction; its rows run down along b.  A machined surface lies
- * with its lay - the direction of its grooves - along the rows' length, so that the brush follows the grooves.
+ * rows run along the tangent t, which is the brush direction, and follow each other along b.  A machined surface lies
+ * with its lay - the direction of its grooves - along the rows, so that the brush follows the grooves.
  *
  * SLOPES.  Where the surface's normal is h in the frame (t, b, n), its slopes are p = h.t / h.n and q = h.b / h.n: for
- * heights z, p = -dz/dx and q = -dz/dy.  The share of the projected area whose slopes lie in dp dq is P(p, q) dp dq, and
- * D(h) = P / (h.n)^4. */
+ * heights z, p = -dz/dx and q = -dz/dy.  The share of the projected area whose slopes lie in dp dq is P(p, q) dp dq,
+ * and D(h) = P / (h.n)^4. */
 
 /* Heights and the distance of neighbouring texels in the same unit of length.  NaN: not measured. */
 typedef struct pe_heights {
@@ -201,8 +201,8 @@ typedef struct pe_heights {
 #define PE_HEIGHTS_SIDE_MIN 8 /* texels; a smaller field has no slopes worth measuring */
 
 /* Reads grey heights: OpenEXR or PNG (16 bit, better than 8), a PNG's values as stored, its transparent texels not
- * measured.  `unit` is the height that the value 1 - white, in a PNG - stands for, `pitch` the distance of texels in the
- * same unit of length; both 0: as the file says, if pe_heights_write made it. */
+ * measured.  `unit` is the height that the value 1 - white, in a PNG - stands for, `pitch` the distance of texels in
+ * the same unit of length; both 0: as the file says, if pe_heights_write made it. */
 pe_status pe_heights_read(const char *path, double unit, double pitch, pe_heights *heights, pe_error *error);
 pe_status pe_heights_read_memory(const void *bytes, size_t size, const char *name, double unit, double pitch,
                                  pe_heights *heights, pe_error *error);
@@ -219,9 +219,10 @@ typedef enum pe_machining {
     PE_BRUSHED     /* a Gaussian surface, drawn out along x: Beckmann of two widths */
 } pe_machining;
 
-/* The field repeats itself.  Lengths in one unit, such as micrometres.  A Gaussian surface of root mean square height `roughness`, whose
- * autocorrelation falls to 1/e over `length` along x and y, lies by itself (blasted, brushed) or over the grooves
- * (turned, milled); its slopes are Beckmann's, alpha = 2 roughness / length.  0 means the default of the kind. */
+/* The field repeats itself.  Lengths in one unit, such as micrometres.  A Gaussian surface of root mean square height
+ * `roughness`, whose autocorrelation falls to 1/e over `length` along x and y, lies by itself (blasted, brushed) or over
+ * the grooves (turned, milled); its slopes are Beckmann's, alpha = 2 roughness / length.  0 means the default of the
+ * kind. */
 typedef struct pe_machining_options {
     pe_machining kind;
     int width, height; /* texels, PE_HEIGHTS_SIDE_MIN to 8192; 0: 1024 */
@@ -256,8 +257,8 @@ typedef enum pe_green { PE_GREEN_UP = 0 /* OpenGL */, PE_GREEN_DOWN /* DirectX *
 /* By the seven-point formula of [ISO 25178-2]. */
 pe_status pe_slopes_of_heights(const pe_heights *heights, pe_edges edges, pe_slopes *slopes, pe_error *error);
 
-/* Of a tangent-space normal map as pe_image_read_data reads it: 2 rgb - 1 is the normal, red along the columns, green up
- * or down, blue out of the surface.  `name` is used in messages only. */
+/* Of a tangent-space normal map as pe_image_read_data reads it: 2 rgb - 1 is the normal, red to the right, green up or
+ * down, blue out of the surface.  `name` is used in messages only. */
 pe_status pe_slopes_of_normals(const pe_image *image, const char *name, pe_green green, pe_slopes *slopes,
                                pe_error *error);
 
@@ -274,6 +275,9 @@ void pe_slopes_measure(const pe_slopes *slopes, pe_slope_statistics *statistics)
 
 /* Takes the mean slope off: the part is levelled. */
 void pe_slopes_level(pe_slopes *slopes);
+
+/* Turns the surface by a quarter, so that the brush direction is down the picture's columns. */
+void pe_slopes_turn(pe_slopes *slopes);
 
 /* P(p, q) in cells: cell (i, j) is centred at p = ((2i + 1) / width - 1) range[0], q likewise with j and range[1]. */
 typedef struct pe_slope_density {

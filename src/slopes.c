@@ -171,3 +171,14 @@ void pe_slopes_level(pe_slopes *slopes)
         slopes->q[k] = (float)((double)slopes->q[k] - statistics.mean[1]);
     }
 }
+
+/* t' = b, b' = n x b = -t: so p' = q, q' = -p. */
+void pe_slopes_turn(pe_slopes *slopes)
+{
+    for (size_t k = 0; k < slopes->count; k++) {
+        float p = slopes->p[k];
+
+        slopes->p[k] = slopes->q[k];
+        slopes->q[k] = -p;
+    }
+}

@@ -5,7 +5,7 @@
 work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
 trap 'rm -rf "$work"' EXIT
 
-commands="bake info eval exact diff surface"
+commands="bake info eval exact diff ndf surface"
 
 # What the command prints to one stream while the other is thrown away, and its exit code after it.
 out()
@@ -61,6 +61,8 @@ is "$(options_of eval)" "exponent help interpolation threads " "the options of e
 is "$(options_of exact)" "alpha direction help ndf quiet threads " "the options of exact"
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
+is "$(options_of ndf)" \
+    "height help json keep-tilt normal-map output pitch quiet range scale smooth turn wrap " "the options of ndf"
 is "$(options_of surface)" "feed help length output pitch quiet radius roughness seed size slope " \
     "the options of surface"
 

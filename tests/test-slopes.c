@@ -44,6 +44,10 @@ static void test_plane(void)
     ok(slopes.count == 6 * 3 && slopes.missing == 12 * 9 - 6 * 3, "three texels along each edge have no slope");
     ok(fabs(s.mean[0] - 0.1) < 1e-6 && fabs(s.mean[1] + 0.2) < 1e-6, "a plane's slopes are %g, %g", s.mean[0],
        s.mean[1]);
+    pe_slopes_turn(&slopes);
+    pe_slopes_measure(&slopes, &s);
+    ok(fabs(s.mean[0] + 0.2) < 1e-6 && fabs(s.mean[1] + 0.1) < 1e-6, "turned by a quarter: %g, %g", s.mean[0],
+       s.mean[1]);
     pe_slopes_level(&slopes);
     pe_slopes_measure(&slopes, &s);
     ok(fabs(s.mean[0]) < 1e-7 && fabs(s.mean[1]) < 1e-7 && s.steepest < 1e-6, "levelled, it is flat");

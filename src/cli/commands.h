@@ -9,6 +9,7 @@ extern const cli_command info_command;
 extern const cli_command eval_command;
 extern const cli_command exact_command;
 extern const cli_command diff_command;
+extern const cli_command ndf_command;
 extern const cli_command surface_command;
 
 #endif

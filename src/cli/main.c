@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 static const cli_command *const commands[] = { &bake_command,  &info_command, &eval_command,
-                                               &exact_command, &diff_command, &surface_command };
+                                               &exact_command, &diff_command, &ndf_command, &surface_command };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
