@@ -62,7 +62,8 @@ static pe_env *shrink(const pe_env *env, int width, int height)
 
 static pe_maps *bake(const pe_env *env, int width, int height, pe_accuracy accuracy, int threads, double *seconds)
 {
-    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA, NULL },
+    pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
+                                .surface.ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA, NULL },
                                 .normals = NORMALS,
                                 .width = width,
                                 .height = height,

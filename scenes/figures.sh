@@ -129,7 +129,7 @@ sheet()
 
 make_mesh work
 if [ ! work/environment.exr -ef "$hdri" ]; then ln -sf "$hdri" work/environment.exr; fi
-bake maps --alpha $alpha
+bake maps --alpha $alpha --paper
 bake baseline --alpha $alpha --method baseline
 
 # One ray a pixel, through its middle, so that all of them see the same points.

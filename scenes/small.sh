@@ -21,12 +21,12 @@ small_prepare()
     ln -sf "$courtyard" environment.exr
     ln -sf "$studio" studio.exr
     make_mesh .
-    small_bake environment.exr maps.exr --size 100x50
+    small_bake environment.exr maps.exr --paper --size 100x50
     small_bake environment.exr baseline.exr --size 100x50 --method baseline
-    small_bake courtyard.exr brushed.pe.exr --alpha 0.1,0.03 --size 100x50
-    small_bake studio.exr studio.pe.exr --size 64x32 --normals 12
+    small_bake courtyard.exr brushed.pe.exr --alpha 0.1,0.03 --paper --size 100x50
+    small_bake studio.exr studio.pe.exr --method representative --size 64x32 --normals 12
     for alpha in 0.02 0.05 0.10 0.20 0.40; do
-        small_bake courtyard.exr alpha-$alpha.pe.exr --alpha $alpha --size 64x32 --normals 12
+        small_bake courtyard.exr alpha-$alpha.pe.exr --alpha $alpha --method representative --size 64x32 --normals 12
     done
     cat >fig6_numbers.inc <<'END'
 #declare Reference_Samples = 1;

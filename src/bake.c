@@ -1,194 +1,178 @@
-/* bake.c - environment + NDF + representative normals to maps. [Motegi 3.1, Eq. 5]
- *
- * A texel w of the image that n_k and -n_k share belongs to the side it lies on, n = +-n_k.  The viewer who sees w in a
- * mirror of normal n is o = reflect(w, n): in the tangent frame of n, with w = (x, y, z), o = (-x, -y, z). */
+/* bake.c - environment + surface + representative normals to maps: what is done with which lights. */
 #include "baseline.h"
+#include "choose.h"
 #include "cluster.h"
 #include "estimate.h"
 #include "filter.h"
+#include "hemispheres.h"
 #include "maps.h"
-#include "parallel.h"
+#include "pairs.h"
 #include "status.h"
-#include "vector.h"
+#include "suns.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
-#define AUTO_EXACT_TEXELS_MAX (400 * 200)
+#define AUTO_EXACT_TEXELS_MAX (128 * 64)
 
-/* One side of a pair, ready to be filtered. */
-typedef struct side {
-    pe_frame frame;
-    pe_lights lights;
-} side;
-
-/* What all rows of one image share. */
+/* What one bake shares. */
 typedef struct job {
-    const pe_env *env;
-    const pe_cloud *cloud;
+    const pe_bake_options *options;
     const pe_lobe *lobe;
-    double lobe_reach;
     pe_maps *maps;
-    int image;
-    side sides[2];
+    pe_report report;
 } job;
 
-/* ---- points ---- */
-
-/* Texels of one side waiting to be filtered together. */
-typedef struct batch {
-    size_t count;
-    float o[PE_FILTER_POINTS_MAX][3];
-    double world[PE_FILTER_POINTS_MAX][3];
-    float *out[PE_FILTER_POINTS_MAX];
-} batch;
-
-static void store(const job *j, const double sums[4], const double world[3], const float o[3], float *out)
-{
-    double rgb[3];
-
-    pe_filter_radiance(j->lobe, j->env, sums, world, o, rgb);
-    for (int c = 0; c < 3; c++)
-        out[c] = (float)rgb[c];
-}
-
-static void finish(const job *j, const pe_lights *lights, batch *points)
-{
-    double sums[PE_FILTER_POINTS_MAX][4];
-
-    pe_filter_points(j->lobe, lights, (const float(*)[3])points->o, points->count, sums);
-    for (size_t k = 0; k < points->count; k++)
-        store(j, sums[k], points->world[k], points->o[k], points->out[k]);
-    points->count = 0;
-}
-
-static void add_point(const job *j, const side *s, const double world[3], float *out, batch *points)
-{
-    size_t k = points->count++;
-
-    pe_mirror_viewer(&s->frame, world, points->o[k]);
-    memcpy(points->world[k], world, sizeof points->world[k]);
-    points->out[k] = out;
-    if (points->count == PE_FILTER_POINTS_MAX)
-        finish(j, &s->lights, points);
-}
-
-/* ---- representative normals ---- */
-
-static float *row_of(const job *j, size_t y)
-{
-    return j->maps->rgb + (size_t)j->image * pe_maps_image_values(j->maps) + 3 * y * (size_t)j->maps->info.width;
-}
-
-static void filter_row(size_t y, void *data)
-{
-    const job *j = data;
-    float *row = row_of(j, y);
-    batch points[2];
-
-    points[0].count = points[1].count = 0;
-    for (int x = 0; x < j->maps->info.width; x++) {
-        double world[3];
-        int which;
-
-        pe_grid_direction(&j->maps->grid, x, (int)y, world);
-        which = !(pe_dot(world, j->sides[0].frame.n) > 0);
-        add_point(j, &j->sides[which], world, row + 3 * x, &points[which]);
-    }
-    for (int which = 0; which < 2; which++)
-        finish(j, &j->sides[which].lights, &points[which]);
-}
-
-static void prepare_side(size_t which, void *data)
-{
-    job *j = data;
-    side *s = &j->sides[which];
-
-    pe_frame_make(pe_geodesic_vertex(j->maps->geodesic, 2 * j->image + (int)which), j->maps->info.direction, &s->frame);
-    pe_lights_fill(j->cloud, j->lobe, &s->frame, j->lobe_reach, &s->lights);
-}
-
-static pe_status bake_images(job *j, int threads, pe_report *report, pe_error *error)
-{
-    pe_status status = pe_lights_allocate(j->cloud, &j->sides[0].lights, error);
-
-    if (status == PE_OK)
-        status = pe_lights_allocate(j->cloud, &j->sides[1].lights, error);
-    for (j->image = 0; status == PE_OK && j->image < j->maps->info.images; j->image++) {
-        pe_parallel_for(2, threads, prepare_side, j, NULL);
-        status = pe_parallel_for((size_t)j->maps->info.height, threads, filter_row, j, report);
-        report->done += j->maps->info.height;
-    }
-    pe_lights_free(&j->sides[0].lights);
-    pe_lights_free(&j->sides[1].lights);
-    return status;
-}
-
-/* ---- baseline ---- */
-
-static pe_status bake_baseline(const job *j, int threads, const pe_report *report, pe_error *error)
-{
-    pe_head_on *head_on;
-    pe_status status = pe_head_on_make(j->cloud, j->lobe, j->maps->info.direction, j->lobe_reach, &head_on, error);
-
-    if (status != PE_OK)
-        return status;
-    status = pe_baseline_fill(head_on, j->maps, threads, report, error);
-    pe_head_on_free(head_on);
-    return status;
-}
-
-/* ---- the whole ---- */
+/* ---- lights ---- */
 
 /* Lobes narrower than a cluster would see single lights, so clusters shrink with the lobe's area, of which each texel
- * then sees the same number.  The constants keep the error below 1 % on photographs with suns: tests/test-fast.c. */
-#define CLUSTERS_PER_LOBE_AREA 164.0
-#define CLUSTERS_MIN 4096
+ * then sees the same number; and the error falls as their number grows.  The constants keep the error below what is
+ * wanted on photographs: tests/test-fast.c. */
+#define CLUSTERS_PER_LOBE_AREA 0.33
+#define CLUSTERS_MIN 8.0
 
-static double cluster_count(const pe_ndf *ndf)
+static double cluster_count(const pe_ndf *ndf, double wanted)
 {
     double width[2];
 
     pe_ndf_fineness(ndf, width);
-    return CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (width[0] * width[1]);
+    return (CLUSTERS_MIN + CLUSTERS_PER_LOBE_AREA / (width[0] * width[1])) / wanted;
+}
+
+/* With half as many clusters as texels there is nothing to gain from them. */
+static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
+{
+    double texels = (double)env->width * env->height;
+    double clusters = cluster_count(&j->maps->info.surface.ndf, pe_wanted_error(j->options));
+
+    if (j->maps->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
+        return pe_cloud_from_env(env, cloud, error);
+    return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
 }
 
 /* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their
  * half vectors raises that to (1 + 18 alpha^2)^2 times as much. */
 #define FAST_LIMIT 18
 
-/* With half as many clusters as texels there is nothing to gain from them. */
-static pe_status make_cloud(const pe_env *env, const pe_maps_info *info, pe_cloud *cloud, pe_error *error)
+static double reach_of(const job *j)
 {
-    double texels = (double)env->width * env->height, clusters = cluster_count(&info->surface.ndf);
-
-    if (info->accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
-        return pe_cloud_from_env(env, cloud, error);
-    return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
+    return pe_lobe_reach(j->lobe, j->maps->info.accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
 }
 
-static pe_status fill_maps(const pe_env *env, const pe_lobe *lobe, pe_maps *maps, const pe_bake_options *options,
-                           pe_error *error)
+/* ---- the methods ---- */
+
+static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
 {
-    const pe_maps_info *info = &maps->info;
+    pe_env *rest;
     pe_cloud cloud;
-    job j = { .env = env, .cloud = &cloud, .lobe = lobe, .maps = maps };
-    pe_report report = { options->progress, options->progress_data, 0, (double)info->images * info->height };
-    pe_status status = make_cloud(env, info, &cloud, error);
+    pe_status status = pe_suns_draw_out(env, &maps->info.surface, &maps->suns, &rest, error);
 
     if (status != PE_OK)
         return status;
-    j.lobe_reach = pe_lobe_reach(lobe, info->accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
-    status = info->method == PE_METHOD_BASELINE ? bake_baseline(&j, options->threads, &report, error)
-                                                : bake_images(&j, options->threads, &report, error);
+    status = make_cloud(j, rest, &cloud, error);
+    if (status == PE_OK) {
+        j->report.total = maps->info.images;
+        status = pe_fill_hemispheres(&cloud, j->lobe, reach_of(j), j->options->threads, &j->report, maps, error);
+        pe_cloud_free(&cloud);
+    }
+    pe_env_free(rest);
+    if (status == PE_OK)
+        status = pe_maps_finish(maps, j->options->threads, error);
+    return status;
+}
+
+/* The hemispheres that pairs can be looked up in. */
+static pe_maps_info hemispheres_for(const pe_maps_info *pairs)
+{
+    pe_maps_info info = *pairs;
+
+    info.method = PE_METHOD_HEMISPHERES;
+    pe_choose_fine_size(&info.surface.ndf, &info.width, &info.height);
+    return info;
+}
+
+static pe_status bake_pairs_from_hemispheres(job *j, const pe_env *env, const pe_maps_info *info, pe_error *error)
+{
+    pe_maps *hemispheres;
+    pe_status status = pe_maps_create(info, &hemispheres, error);
+
+    if (status != PE_OK)
+        return status;
+    status = bake_hemispheres(j, env, hemispheres, error);
+    if (status == PE_OK)
+        status = pe_fill_pairs_from_hemispheres(hemispheres, j->options->threads, NULL, j->maps);
+    pe_maps_free(hemispheres);
+    return status;
+}
+
+static pe_status bake_pairs_from_lights(job *j, const pe_env *env, pe_error *error)
+{
+    pe_cloud cloud;
+    pe_status status = make_cloud(j, env, &cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    j->report.total = (double)j->maps->info.images * j->maps->info.height;
+    status = pe_fill_pairs(&cloud, j->lobe, reach_of(j), j->options->threads, &j->report, j->maps, error);
     pe_cloud_free(&cloud);
-    if (status == PE_OK && info->accuracy == PE_ACCURACY_FAST)
-        status = pe_estimate_error(env, maps, lobe, options->threads, &maps->info.error_estimate, error);
+    return status;
+}
+
+/* By way of hemispheres, where these have fewer texels. */
+static pe_status bake_pairs(job *j, const pe_env *env, pe_error *error)
+{
+    const pe_maps_info *pairs = &j->maps->info;
+    pe_maps_info hemispheres = hemispheres_for(pairs);
+
+    if (pairs->accuracy == PE_ACCURACY_FAST &&
+        2 * (double)hemispheres.width * hemispheres.height < (double)pairs->width * pairs->height)
+        return bake_pairs_from_hemispheres(j, env, &hemispheres, error);
+    return bake_pairs_from_lights(j, env, error);
+}
+
+static pe_status bake_baseline(job *j, const pe_env *env, pe_error *error)
+{
+    const pe_maps_info *info = &j->maps->info;
+    pe_head_on *head_on;
+    pe_cloud cloud;
+    pe_status status = make_cloud(j, env, &cloud, error);
+
+    if (status != PE_OK)
+        return status;
+    status = pe_head_on_make(&cloud, j->lobe, info->direction, reach_of(j), &head_on, error);
+    if (status == PE_OK) {
+        j->report.total = info->height;
+        status = pe_baseline_fill(head_on, j->maps, j->options->threads, &j->report, error);
+        pe_head_on_free(head_on);
+    }
+    pe_cloud_free(&cloud);
+    return status;
+}
+
+static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
+{
+    pe_status status = PE_OK;
+
+    switch (j->maps->info.method) {
+    case PE_METHOD_DEFAULT:
+    case PE_METHOD_HEMISPHERES:
+        status = bake_hemispheres(j, env, j->maps, error);
+        break;
+    case PE_METHOD_REPRESENTATIVE:
+        status = bake_pairs(j, env, error);
+        break;
+    case PE_METHOD_BASELINE:
+        status = bake_baseline(j, env, error);
+        break;
+    }
+    if (status == PE_OK)
+        status = pe_estimate_errors(env, j->maps, j->lobe, j->options->threads, error);
     if (status == PE_ERROR_CANCELLED)
         pe_fail(error, status, "cancelled");
     return status;
 }
+
+/* ---- the whole ---- */
 
 static pe_accuracy choose_accuracy(pe_accuracy asked, const pe_env *env)
 {
@@ -218,39 +202,58 @@ static void choose_info(const pe_env *env, const pe_bake_options *options, pe_ma
     static const double plus_y[3] = { 0, 1, 0 };
     const double *d = options->direction;
 
-    *info = (pe_maps_info){ .method = options->method,
+    *info = (pe_maps_info){ .method = options->method ? options->method : PE_METHOD_HEMISPHERES,
                             .surface = options->surface,
-                            .normals = options->normals ? options->normals : 42,
-                            .width = options->width ? options->width : 400,
-                            .height = options->height ? options->height : 200,
+                            .normals = options->normals,
+                            .angles = options->angles ? options->angles : 1,
+                            .width = options->width,
+                            .height = options->height,
                             .source_name = env->name,
                             .source_width = env->width,
                             .source_height = env->height,
                             .accuracy = choose_accuracy(options->accuracy, env) };
     choose_alphas(info);
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
+    if (info->method == PE_METHOD_HEMISPHERES) {
+        pe_choose_hemispheres(env, options, info);
+        return;
+    }
+    info->normals = info->normals ? info->normals : 42;
+    info->width = info->width ? info->width : 400;
+    info->height = info->height ? info->height : 200;
+}
+
+static pe_status check_error(double wanted, pe_error *error)
+{
+    if (wanted == 0 || (wanted >= 0.0005 && wanted <= 0.1))
+        return PE_OK;
+    return pe_fail(error, PE_ERROR_ARGUMENT, "error %g is out of range; it lies between 0.0005 and 0.1", wanted);
 }
 
 pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **out, pe_error *error)
 {
     pe_maps_info info;
-    pe_maps *maps;
-    pe_lobe *lobe;
-    pe_status status;
+    pe_lobe *lobe = NULL;
+    job j = { .options = options, .report = { options->progress, options->progress_data, 0, 1 } };
+    pe_status status = check_error(options->error, error);
 
-    choose_info(env, options, &info);
-    status = pe_lobe_make(&info.surface, options->threads, &lobe, error);
     if (status != PE_OK)
         return status;
-    status = pe_maps_create(&info, &maps, error);
-    if (status == PE_OK) {
-        status = fill_maps(env, lobe, maps, options, error);
-        maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
-        if (status == PE_OK)
-            *out = maps;
-        else
-            pe_maps_free(maps);
-    }
+    choose_info(env, options, &info);
+    status = pe_surface_check(&info.surface, error);
+    if (status == PE_OK)
+        status = pe_maps_create(&info, &j.maps, error);
+    if (status != PE_OK)
+        return status;
+    status = pe_lobe_make(&info.surface, options->threads, &lobe, error);
+    j.lobe = lobe;
+    if (status == PE_OK)
+        status = fill_maps(&j, env, error);
     pe_lobe_free(lobe);
+    j.maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
+    if (status == PE_OK)
+        *out = j.maps;
+    else
+        pe_maps_free(j.maps);
     return status;
 }

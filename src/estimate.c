@@ -1,4 +1,4 @@
-/* estimate.c - how far baked maps are from the exact ones: some texels done again with every light. */
+/* estimate.c - how far baked maps are from the exact ones: some of what they show done again with every light. */
 #include "estimate.h"
 
 #include "baseline.h"
@@ -10,39 +10,52 @@
 
 #include <stdlib.h>
 
-#define FRAMES 16            /* normals looked at; of a baseline map, where each texel has its own, texels */
-#define POINTS_PER_FRAME 192 /* texels for each */
+#define FRAMES 12            /* normals looked at; of a baseline map, where each texel has its own, texels */
+#define POINTS_PER_FRAME 192 /* views for each */
 #define COSINE_MIN 0.15
 
-/* One normal, the texels chosen for it, and what came out. */
+/* One normal, the views chosen for it, and what came out. */
 typedef struct trial {
     const pe_cloud *cloud;
-    const pe_maps *maps;
     const pe_lobe *lobe;
+    const pe_maps *maps;
     const pe_head_on *head_on; /* NULL for maps of representative normals */
     int index;
     double error2, norm2;
     int failed;
 } trial;
 
-/* Adds the squared difference of one texel, looking along `world`, done again as `sums`. */
-static void compare(trial *t, const double world[3], const float o[3], const float *baked, const double sums[4])
+static const double middle[2] = { 0.5, 0.5 };
+
+/* Adds the squared difference of what is shown towards `world` from what `sums` give. */
+static void compare(trial *t, const double world[3], const float o[3], const double shown[3], const double sums[4])
 {
     double exact[3];
 
     pe_filter_radiance(t->lobe, t->cloud->env, sums, world, o, exact);
     for (int c = 0; c < 3; c++) {
-        double difference = (double)baked[c] - exact[c];
+        double difference = shown[c] - exact[c];
 
         t->error2 += difference * difference;
         t->norm2 += exact[c] * exact[c];
     }
 }
 
+/* The same for what the viewer o, in the frame's coordinates, sees. */
+static void compare_view(trial *t, const pe_frame *frame, const pe_lights *lights, const float o[1][3],
+                         const double shown[3])
+{
+    const double r[3] = { -(double)o[0][0], -(double)o[0][1], (double)o[0][2] };
+    double world[3], sums[1][4];
+
+    pe_frame_direction(frame, r, world);
+    pe_filter_points(t->lobe, lights, o, 1, sums);
+    compare(t, world, o[0], shown, sums[0]);
+}
+
 /* The texel of a trial's point k: evenly spread for any number of points. */
 static void place_texel(const trial *t, int k, int *x, int *y)
 {
-    static const double middle[2] = { 0.5, 0.5 };
     double point[2];
 
     pe_lattice_point(t->index * POINTS_PER_FRAME + k, middle, point);
@@ -50,10 +63,13 @@ static void place_texel(const trial *t, int k, int *x, int *y)
     *y = (int)(point[1] * t->maps->info.height);
 }
 
+/* ---- texels of lat-long maps ---- */
+
 static void try_texels(trial *t, int image, const pe_frame *frame, const pe_lights *lights)
 {
     for (int k = 0; k < POINTS_PER_FRAME; k++) {
-        double world[3], sums[1][4];
+        double world[3], shown[3];
+        const float *texel;
         float o[1][3];
         int x, y;
 
@@ -62,19 +78,88 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
         if (!(pe_dot(frame->n, world) > COSINE_MIN))
             continue;
         pe_mirror_viewer(frame, world, o[0]);
-        pe_filter_points(t->lobe, lights, (const float(*)[3])o, 1, sums);
-        compare(t, world, o[0], pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x), sums[0]);
+        texel = pe_maps_image(t->maps, image) + 3 * (y * t->maps->info.width + x);
+        for (int c = 0; c < 3; c++)
+            shown[c] = (double)texel[c];
+        compare_view(t, frame, lights, (const float(*)[3])o, shown);
     }
 }
 
+/* ---- lookups in hemispheres ---- */
+
+static void try_lookup(trial *t, const pe_frame *frame, const pe_lights *lights, const double local[3])
+{
+    const float o[1][3] = { { (float)local[0], (float)local[1], (float)local[2] } };
+    double world[3], shown[3];
+
+    if (!(local[2] > COSINE_MIN))
+        return;
+    pe_frame_direction(frame, local, world);
+    pe_sample(t->maps, NULL, NULL, frame->n, world, shown);
+    compare_view(t, frame, lights, o, shown);
+}
+
+/* Texels of a hemisphere, its suns with them: where splines and interpolation change nothing. */
+static void try_own_texels(trial *t, const pe_frame *frame, const pe_lights *lights)
+{
+    for (int k = 0; k < POINTS_PER_FRAME; k++) {
+        double local[3] = { 0, 0, 0 };
+        int x, y;
+
+        place_texel(t, k, &x, &y);
+        if (pe_disc_direction(&t->maps->disc, x, y, local))
+            try_lookup(t, frame, lights, local);
+    }
+}
+
+/* As many viewers from everywhere see a surface: their solid angle times its cosine. */
+static void try_viewers(trial *t, const pe_frame *frame, const pe_lights *lights)
+{
+    for (int k = 0; k < POINTS_PER_FRAME; k++) {
+        double point[2], local[3];
+
+        pe_lattice_point(t->index * POINTS_PER_FRAME + k, middle, point);
+        local[0] = sqrt(point[0]) * cos(2 * M_PI * point[1]);
+        local[1] = sqrt(point[0]) * sin(2 * M_PI * point[1]);
+        local[2] = sqrt(1 - point[0]);
+        try_lookup(t, frame, lights, local);
+    }
+}
+
+/* ---- trials ---- */
+
+static void try_frame(trial *t, const double n[3], pe_frame *frame, pe_lights *lights)
+{
+    pe_frame_make(n, t->maps->info.direction, frame);
+    pe_lights_fill(t->cloud, t->lobe, frame, pe_lobe_reach(t->lobe, PE_LOBE_CUTOFF), lights);
+}
+
+/* A representative normal. */
 static void try_normal(trial *t, pe_lights *lights)
 {
     int vertex = (int)((long long)t->index * pe_geodesic_count(t->maps->geodesic) / FRAMES);
     pe_frame frame;
 
-    pe_frame_make(pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame);
-    pe_lights_fill(t->cloud, t->lobe, &frame, pe_lobe_reach(t->lobe, PE_LOBE_CUTOFF), lights);
-    try_texels(t, vertex / 2, &frame, lights);
+    try_frame(t, pe_geodesic_vertex(t->maps->geodesic, vertex), &frame, lights);
+    if (t->maps->info.method == PE_METHOD_HEMISPHERES)
+        try_own_texels(t, &frame, lights);
+    else
+        try_texels(t, vertex / 2, &frame, lights);
+}
+
+/* Any normal: evenly over the sphere. */
+static void try_any_normal(trial *t, pe_lights *lights)
+{
+    double point[2], n[3], radius;
+    pe_frame frame;
+
+    pe_lattice_point(t->index, middle, point);
+    n[1] = 2 * point[0] - 1;
+    radius = sqrt(1 - n[1] * n[1]);
+    n[0] = radius * cos(2 * M_PI * point[1]);
+    n[2] = radius * sin(2 * M_PI * point[1]);
+    try_frame(t, n, &frame, lights);
+    try_viewers(t, &frame, lights);
 }
 
 /* Of a baseline map, each texel has its own frame. */
@@ -83,71 +168,104 @@ static void try_baseline(trial *t)
     static const float head_on[3] = { 0, 0, 1 };
 
     for (int k = 0; k < POINTS_PER_FRAME / FRAMES && !t->failed; k++) {
-        double world[1][3], sums[1][4];
+        double world[1][3], sums[1][4], shown[3];
+        const float *texel;
         int x, y;
 
         place_texel(t, k, &x, &y);
+        texel = pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x);
+        for (int c = 0; c < 3; c++)
+            shown[c] = (double)texel[c];
         pe_grid_direction(&t->maps->grid, x, y, world[0]);
         t->failed = pe_head_on_filter(t->head_on, (const double(*)[3])world, 1, sums, NULL) != PE_OK;
         if (!t->failed)
-            compare(t, world[0], head_on, pe_maps_image(t->maps, 0) + 3 * (y * t->maps->info.width + x), sums[0]);
+            compare(t, world[0], head_on, shown, sums[0]);
     }
 }
 
-static void run_trial(size_t index, void *data)
+typedef void pe_try(trial *t, pe_lights *lights);
+
+static void with_lights(trial *t, pe_try *try_it)
 {
-    trial *t = (trial *)data + index;
     pe_lights lights;
 
-    if (!t->maps->geodesic) {
-        try_baseline(t);
-        return;
-    }
     t->failed = pe_lights_allocate(t->cloud, &lights, NULL) != PE_OK;
     if (t->failed)
         return;
-    try_normal(t, &lights);
+    try_it(t, &lights);
     pe_lights_free(&lights);
 }
 
-static double run_trials(trial trials[FRAMES], int threads, int *failed)
+static void run_texels(size_t index, void *data)
 {
+    trial *t = (trial *)data + index;
+
+    if (t->maps->geodesic)
+        with_lights(t, try_normal);
+    else
+        try_baseline(t);
+}
+
+static void run_lookups(size_t index, void *data)
+{
+    with_lights((trial *)data + index, try_any_normal);
+}
+
+static pe_status run_trials(const trial *model, pe_task *run, int threads, double *estimate, pe_error *error)
+{
+    trial trials[FRAMES];
     double error2 = 0, norm2 = 0;
 
-    pe_parallel_for(FRAMES, threads, run_trial, trials, NULL);
     for (int k = 0; k < FRAMES; k++) {
-        *failed |= trials[k].failed;
+        trials[k] = *model;
+        trials[k].index = k;
+    }
+    pe_parallel_for(FRAMES, threads, run, trials, NULL);
+    for (int k = 0; k < FRAMES; k++) {
+        if (trials[k].failed)
+            return pe_fail_memory(error, "the estimate of the error");
         error2 += trials[k].error2;
         norm2 += trials[k].norm2;
     }
-    return norm2 > 0 ? sqrt(error2 / norm2) : 0;
+    *estimate = norm2 > 0 ? sqrt(error2 / norm2) : 0;
+    return PE_OK;
 }
 
-pe_status pe_estimate_error(const pe_env *env, const pe_maps *maps, const pe_lobe *lobe, int threads, double *estimate,
-                            pe_error *error)
+static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_lobe *lobe, int threads,
+                                 pe_error *error)
 {
-    trial trials[FRAMES];
+    trial model = { .cloud = cloud, .lobe = lobe, .maps = maps };
     pe_head_on *head_on = NULL;
-    pe_cloud cloud;
-    double found;
-    int failed = 0;
-    pe_status status = pe_cloud_from_env(env, &cloud, error);
+    pe_status status = PE_OK;
 
-    if (status != PE_OK)
-        return status;
     if (!maps->geodesic)
         status =
-            pe_head_on_make(&cloud, lobe, maps->info.direction, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), &head_on, error);
-    if (status == PE_OK) {
-        for (int k = 0; k < FRAMES; k++)
-            trials[k] = (trial){ .cloud = &cloud, .maps = maps, .lobe = lobe, .head_on = head_on, .index = k };
-        found = run_trials(trials, threads, &failed);
-        if (failed)
-            status = pe_fail_memory(error, "the estimate of the error");
-        else
-            *estimate = found;
-    }
+            pe_head_on_make(cloud, lobe, maps->info.direction, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), &head_on, error);
+    model.head_on = head_on;
+    if (status == PE_OK)
+        status = run_trials(&model, run_texels, threads, &maps->info.error_estimate, error);
     pe_head_on_free(head_on);
+    return status;
+}
+
+pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error)
+{
+    int is_exact = maps->info.accuracy == PE_ACCURACY_EXACT, has_lookups = maps->info.method == PE_METHOD_HEMISPHERES;
+    pe_cloud cloud;
+    pe_status status = PE_OK;
+
+    if (is_exact && !has_lookups)
+        return PE_OK;
+    status = pe_cloud_from_env(env, &cloud, error);
+    if (status != PE_OK)
+        return status;
+    if (!is_exact)
+        status = estimate_texels(&cloud, maps, lobe, threads, error);
+    if (status == PE_OK && has_lookups) {
+        const trial model = { .cloud = &cloud, .lobe = lobe, .maps = maps };
+
+        status = run_trials(&model, run_lookups, threads, &maps->info.lookup_error, error);
+    }
     pe_cloud_free(&cloud);
     return status;
 }

@@ -1,6 +1,8 @@
 /* maps.c - a set of maps in memory: made, described, released. */
 #include "maps.h"
 
+#include "parallel.h"
+#include "spline.h"
 #include "status.h"
 #include "vector.h"
 
@@ -42,29 +44,36 @@ static pe_status check_surface(const pe_surface *surface, pe_error *error)
     return pe_surface_check(&likely, error);
 }
 
-static pe_status check_info(pe_maps_info *info, pe_error *error)
+static pe_status check_direction(const double d[3], pe_error *error)
 {
-    pe_status status = check_surface(&info->surface, error);
-
-    if (status != PE_OK)
-        return status;
-    if (info->method != PE_METHOD_REPRESENTATIVE && info->method != PE_METHOD_BASELINE)
-        return pe_fail(error, PE_ERROR_ARGUMENT, "method %d is not known", (int)info->method);
     for (int c = 0; c < 3; c++)
-        if (!isfinite(info->direction[c]))
+        if (!isfinite(d[c]))
             return pe_fail(error, PE_ERROR_ARGUMENT, "direction is not finite");
-    if (info->direction[0] == 0 && info->direction[1] == 0 && info->direction[2] == 0)
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0)
         return pe_fail(error, PE_ERROR_ARGUMENT, "direction has no length");
-    if (info->width < 2 || info->height < 2 || info->width > PE_MAPS_SIDE_MAX || info->height > PE_MAPS_SIDE_MAX)
-        return pe_fail(error, PE_ERROR_ARGUMENT, "size %d x %d is out of range; each side lies between 2 and %d",
-                       info->width, info->height, PE_MAPS_SIDE_MAX);
-    if (info->method == PE_METHOD_REPRESENTATIVE)
-        status = check_normals(info->normals, error);
-    if (status != PE_OK)
-        return status;
-    info->normals = info->method == PE_METHOD_REPRESENTATIVE ? info->normals : 0;
-    info->frequency = pe_geodesic_frequency(info->normals);
-    info->images = info->method == PE_METHOD_REPRESENTATIVE ? info->normals / 2 : 1;
+    return PE_OK;
+}
+
+static pe_status check_angles(const pe_maps_info *info, pe_error *error)
+{
+    if (info->angles == 1)
+        return PE_OK;
+    if (info->method != PE_METHOD_HEMISPHERES)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d: only hemispheres can have more than 1", info->angles);
+    if (info->angles < PE_MAPS_ANGLES_MIN || info->angles > PE_MAPS_ANGLES_MAX)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d is out of range; give 1, or %d to %d", info->angles,
+                       PE_MAPS_ANGLES_MIN, PE_MAPS_ANGLES_MAX);
+    return PE_OK;
+}
+
+static pe_status check_size(const pe_maps_info *info, pe_error *error)
+{
+    int least = info->method == PE_METHOD_HEMISPHERES ? PE_DISC_SIDE_MIN : 2;
+
+    if (info->width < least || info->height < least || info->width > PE_MAPS_SIDE_MAX ||
+        info->height > PE_MAPS_SIDE_MAX)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "size %d x %d is out of range; each side lies between %d and %d",
+                       info->width, info->height, least, PE_MAPS_SIDE_MAX);
     if ((size_t)info->width * (size_t)info->height > PE_MAPS_TEXELS_MAX / (size_t)info->images)
         return pe_fail(error, PE_ERROR_LIMIT,
                        "%d maps of %d x %d are more than can be held; make them fewer, or smaller than %zu texels each",
@@ -72,10 +81,51 @@ static pe_status check_info(pe_maps_info *info, pe_error *error)
     return PE_OK;
 }
 
+static void count_images(pe_maps_info *info)
+{
+    if (info->method == PE_METHOD_BASELINE)
+        info->normals = 0;
+    info->frequency = pe_geodesic_frequency(info->normals);
+    switch (info->method) {
+    case PE_METHOD_DEFAULT:
+    case PE_METHOD_HEMISPHERES:
+        info->images = info->normals * info->angles;
+        break;
+    case PE_METHOD_REPRESENTATIVE:
+        info->images = info->normals / 2;
+        break;
+    case PE_METHOD_BASELINE:
+        info->images = 1;
+        break;
+    }
+}
+
+static pe_status check_info(pe_maps_info *info, pe_error *error)
+{
+    pe_status status = check_surface(&info->surface, error);
+
+    if (status != PE_OK)
+        return status;
+    if (info->method < PE_METHOD_HEMISPHERES || info->method > PE_METHOD_BASELINE)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "method %d is not known", (int)info->method);
+    status = check_direction(info->direction, error);
+    if (status == PE_OK)
+        status = check_angles(info, error);
+    if (status == PE_OK && info->method != PE_METHOD_BASELINE)
+        status = check_normals(info->normals, error);
+    if (status != PE_OK)
+        return status;
+    count_images(info);
+    return check_size(info, error);
+}
+
 static pe_status allocate(pe_maps *maps, const char *source_name, const char *ndf_name, pe_error *error)
 {
-    pe_status status = pe_grid_make(maps->info.width, maps->info.height, &maps->grid, error);
+    pe_status status = PE_OK;
 
+    maps->disc = (pe_disc){ maps->info.width, maps->info.height };
+    if (maps->info.method != PE_METHOD_HEMISPHERES)
+        status = pe_grid_make(maps->info.width, maps->info.height, &maps->grid, error);
     if (status == PE_OK && maps->info.frequency)
         status = pe_geodesic_make(maps->info.frequency, &maps->geodesic, error);
     if (status != PE_OK)
@@ -119,9 +169,12 @@ void pe_maps_free(pe_maps *maps)
         return;
     pe_geodesic_free(maps->geodesic);
     pe_grid_free(&maps->grid);
+    pe_denominator_free(maps->denominator);
     free(maps->source_name);
     free(maps->ndf_name);
     free(maps->rgb);
+    free(maps->frames);
+    free(maps->coefficients);
     free(maps);
 }
 
@@ -138,6 +191,64 @@ const float *pe_maps_image(const pe_maps *maps, int k)
 void pe_maps_normal(const pe_maps *maps, int k, double n[3])
 {
     static const double up[3] = { 0, 1, 0 };
+    int vertex = maps->info.method == PE_METHOD_HEMISPHERES ? k / maps->info.angles : 2 * k;
 
-    memcpy(n, maps->geodesic ? pe_geodesic_vertex(maps->geodesic, 2 * k) : up, 3 * sizeof *n);
+    memcpy(n, maps->geodesic ? pe_geodesic_vertex(maps->geodesic, vertex) : up, 3 * sizeof *n);
+}
+
+/* ---- hemispheres ---- */
+
+void pe_maps_frame(const pe_maps *maps, int k, pe_frame *frame)
+{
+    double n[3], turn = M_PI * (k % maps->info.angles) / maps->info.angles;
+    pe_frame still;
+
+    pe_maps_normal(maps, k, n);
+    pe_frame_make(n, maps->info.direction, &still);
+    *frame = still;
+    for (int c = 0; c < 3; c++) {
+        frame->t[c] = cos(turn) * still.t[c] + sin(turn) * still.b[c];
+        frame->b[c] = cos(turn) * still.b[c] - sin(turn) * still.t[c];
+    }
+}
+
+static void set_frames(pe_maps *maps)
+{
+    for (int vertex = 0; vertex < maps->info.normals; vertex++) {
+        pe_frame frame;
+
+        pe_maps_frame(maps, vertex * maps->info.angles, &frame);
+        for (int c = 0; c < 3; c++) {
+            maps->frames[vertex][0][c] = (float)frame.t[c];
+            maps->frames[vertex][1][c] = (float)frame.b[c];
+            maps->frames[vertex][2][c] = (float)frame.n[c];
+        }
+    }
+}
+
+static void set_coefficients(size_t image, void *data)
+{
+    pe_maps *maps = data;
+    size_t values = pe_maps_image_values(maps);
+    float *coefficients = maps->coefficients + image * values;
+
+    memcpy(coefficients, maps->rgb + image * values, values * sizeof *coefficients);
+    pe_spline_coefficients(coefficients, maps->info.width, maps->info.height, 3);
+}
+
+pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error)
+{
+    size_t normals = (size_t)maps->info.normals;
+
+    if (maps->info.method != PE_METHOD_HEMISPHERES)
+        return PE_OK;
+    maps->info.suns = maps->suns.count;
+    maps->frames = malloc(normals * sizeof *maps->frames);
+    maps->coefficients = malloc(((size_t)maps->info.images * pe_maps_image_values(maps) + 1) * sizeof(float));
+    if (!maps->frames || !maps->coefficients)
+        return pe_fail_memory(error, "the splines through the maps");
+    maps->coefficients[(size_t)maps->info.images * pe_maps_image_values(maps)] = 0;
+    set_frames(maps);
+    pe_parallel_for((size_t)maps->info.images, threads, set_coefficients, maps, NULL);
+    return maps->suns.count ? pe_denominator_make(&maps->info.surface.ndf, &maps->denominator, error) : PE_OK;
 }

@@ -2,28 +2,53 @@
 #ifndef PE_MAPS_H
 #define PE_MAPS_H
 
+#include "denominator.h"
+#include "disc.h"
 #include "env.h"
 #include "geodesic.h"
 #include "prefenv.h"
+#include "suns.h"
+#include "vector.h"
 
-#define PE_MAPS_FORMAT_VERSION 1
+#define PE_MAPS_FORMAT_VERSION 2
 #define PE_MAPS_SIDE_MAX 8192
+#define PE_MAPS_ANGLES_MIN 4 /* unless 1 */
+#define PE_MAPS_ANGLES_MAX 64
 #define PE_MAPS_TEXELS_MAX ((size_t)1 << 28) /* of all images together: 3 GiB of floats */
 
 struct pe_maps {
     pe_maps_info info;
     char *source_name, *ndf_name;
     pe_geodesic *geodesic; /* NULL for baseline */
-    pe_grid grid;          /* directions of the images' texels */
+    pe_grid grid;          /* lat-long: directions of the images' texels */
     float *rgb;            /* images, one after the other */
+
+    /* Hemispheres. */
+    pe_disc disc;
+    pe_suns suns;
+    float (*frames)[3][3];       /* t, b, n of every vertex */
+    float *coefficients;         /* cubic splines through the images; one float more at the end */
+    pe_denominator *denominator; /* NULL where there are no suns */
 };
 
-/* Checks info's method, ndf, direction, normals and size; completes frequency and images; allocates the rest. */
+/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images; allocates the
+ * images. */
 pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *error);
+
+/* To be called when the images and the suns are there and before anything is looked up. */
+pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error);
+
+/* The tangent frame of image k of hemispheres: its vertex's, turned about the normal by its angle. */
+void pe_maps_frame(const pe_maps *maps, int k, pe_frame *frame);
 
 static inline size_t pe_maps_image_values(const pe_maps *maps)
 {
     return 3 * (size_t)maps->info.width * (size_t)maps->info.height;
+}
+
+static inline float *pe_maps_image_to_fill(pe_maps *maps, int k)
+{
+    return maps->rgb + (size_t)k * pe_maps_image_values(maps);
 }
 
 #endif

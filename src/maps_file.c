@@ -1,8 +1,12 @@
-/* maps_file.c - maps as an OpenEXR file: one part an image, header attributes that say all there is to know.
+/* maps_file.c - maps as an OpenEXR file: pictures, and header attributes that say all there is to know.
  *
- * Part "normal.00" holds the pair n_0, -n_0 and so on; a baseline file has the one part "baseline".  Attributes of the
- * first part: prefenv:version, :method, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth,
- * :sourceHeight, :accuracy, :errorEstimate; of every part: prefenv:normal. */
+ * Hemispheres: one part for each brush angle, "angle.00" and so on, with the hemispheres of all normals side by side,
+ * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
+ * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
+ * :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight, :accuracy,
+ * :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun :sun.00.direction and
+ * :sun.00.power. */
+#include "atlas.h"
 #include "exr.h"
 #include "maps.h"
 #include "status.h"
@@ -12,13 +16,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const method_names[] = { "representative", "baseline" };
+static const char *const method_names[] = { "", "hemispheres", "representative", "baseline" };
 static const char *const accuracy_names[] = { "auto", "exact", "fast" };
 static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
 #define ATTRIBUTES 13
+#define HEMISPHERE_ATTRIBUTES 5
+#define SUN_NAME_MAX 40
 
 /* ---- write ---- */
 
@@ -63,31 +69,76 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
     memcpy(out, all, sizeof all);
 }
 
+static void describe_hemispheres(const pe_maps_info *info, pe_attribute out[HEMISPHERE_ATTRIBUTES])
+{
+    const pe_attribute all[HEMISPHERE_ATTRIBUTES] = {
+        integer("prefenv:angles", info->angles), integer("prefenv:width", info->width),
+        integer("prefenv:height", info->height), number("prefenv:lookupError", info->lookup_error),
+        integer("prefenv:suns", info->suns),
+    };
+
+    memcpy(out, all, sizeof all);
+}
+
 /* Everything a part needs while it is being written. */
 typedef struct part_room {
     char name[PART_NAME_MAX];
-    pe_attribute attributes[ATTRIBUTES + 1];
+    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + 2 * PE_SUNS_MAX];
+    char sun_names[2 * PE_SUNS_MAX][SUN_NAME_MAX];
 } part_room;
 
-static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *part)
+static void name_sun(int sun, const char *what, char name[SUN_NAME_MAX])
+{
+    snprintf(name, SUN_NAME_MAX, "prefenv:sun.%02d.%s", sun, what);
+}
+
+static size_t describe_suns(const pe_suns *suns, part_room *room, pe_attribute *out)
+{
+    for (int k = 0; k < suns->count; k++) {
+        name_sun(k, "direction", room->sun_names[2 * k]);
+        name_sun(k, "power", room->sun_names[2 * k + 1]);
+        out[2 * k] = vector(room->sun_names[2 * k], suns->direction[k]);
+        out[2 * k + 1] = vector(room->sun_names[2 * k + 1], suns->power[k]);
+    }
+    return 2 * (size_t)suns->count;
+}
+
+static int parts_of(const pe_maps_info *info)
+{
+    return info->method == PE_METHOD_HEMISPHERES ? info->angles : info->images;
+}
+
+static void name_part(const pe_maps_info *info, int k, char name[PART_NAME_MAX])
+{
+    int digits = snprintf(NULL, 0, "%d", parts_of(info) - 1);
+
+    if (info->method == PE_METHOD_BASELINE)
+        snprintf(name, PART_NAME_MAX, "baseline");
+    else
+        snprintf(name, PART_NAME_MAX, "%s.%0*d", info->method == PE_METHOD_HEMISPHERES ? "angle" : "normal",
+                 digits > 2 ? digits : 2, k);
+}
+
+static void fill_part(const pe_maps *maps, int k, const float *picture, part_room *room, pe_exr_part *part)
 {
     size_t count = 0;
     double n[3];
 
-    if (maps->geodesic) {
-        int digits = snprintf(NULL, 0, "%d", maps->info.images - 1);
-
-        snprintf(room->name, sizeof room->name, "normal.%0*d", digits > 2 ? digits : 2, k);
+    name_part(&maps->info, k, room->name);
+    if (maps->info.method == PE_METHOD_REPRESENTATIVE) {
         pe_maps_normal(maps, k, n);
         room->attributes[count++] = vector("prefenv:normal", n);
-    } else {
-        snprintf(room->name, sizeof room->name, "baseline");
     }
     if (k == 0) {
         describe(&maps->info, room->attributes + count);
         count += ATTRIBUTES;
     }
-    *part = (pe_exr_part){ room->name, pe_maps_image(maps, k), room->attributes, count };
+    if (k == 0 && maps->info.method == PE_METHOD_HEMISPHERES) {
+        describe_hemispheres(&maps->info, room->attributes + count);
+        count += HEMISPHERE_ATTRIBUTES;
+        count += describe_suns(&maps->suns, room, room->attributes + count);
+    }
+    *part = (pe_exr_part){ room->name, picture, room->attributes, count };
 }
 
 static pe_status check_half_range(const pe_maps *maps, const char *path, pe_error *error)
@@ -103,21 +154,67 @@ static pe_status check_half_range(const pe_maps *maps, const char *path, pe_erro
     return PE_OK;
 }
 
-static pe_status encode(const pe_maps *maps, pe_pixel_type type, unsigned char **bytes, size_t *size, pe_error *error)
+/* The pictures to be written, one after the other. */
+typedef struct pictures {
+    int width, height;
+    const float *rgb;
+    float *own; /* to be freed, or NULL */
+} pictures;
+
+static pe_atlas atlas_of(const pe_maps_info *info)
 {
-    int count = maps->info.images;
+    return pe_atlas_of(info->normals, info->width, info->height);
+}
+
+static pe_status make_pictures(const pe_maps *maps, pictures *out, pe_error *error)
+{
+    pe_atlas atlas;
+    size_t values;
+
+    *out = (pictures){ maps->info.width, maps->info.height, maps->rgb, NULL };
+    if (maps->info.method != PE_METHOD_HEMISPHERES)
+        return PE_OK;
+    atlas = atlas_of(&maps->info);
+    values = 3 * (size_t)atlas.width * (size_t)atlas.height;
+    out->own = calloc((size_t)maps->info.angles * values, sizeof *out->own);
+    if (!out->own)
+        return pe_fail_memory(error, "an atlas of maps");
+    for (int k = 0; k < maps->info.images; k++)
+        pe_atlas_insert(&atlas, k / maps->info.angles, pe_maps_image(maps, k),
+                        out->own + (size_t)(k % maps->info.angles) * values);
+    *out = (pictures){ atlas.width, atlas.height, out->own, out->own };
+    return PE_OK;
+}
+
+static pe_status encode_pictures(const pe_maps *maps, const pictures *from, pe_pixel_type type, unsigned char **bytes,
+                                 size_t *size, pe_error *error)
+{
+    int count = parts_of(&maps->info);
+    size_t values = 3 * (size_t)from->width * (size_t)from->height;
     part_room *rooms = calloc((size_t)count, sizeof *rooms);
     pe_exr_part *parts = calloc((size_t)count, sizeof *parts);
     pe_status status = PE_ERROR_MEMORY;
 
     for (int k = 0; rooms && parts && k < count; k++)
-        fill_part(maps, k, &rooms[k], &parts[k]);
+        fill_part(maps, k, from->rgb + (size_t)k * values, &rooms[k], &parts[k]);
     if (rooms && parts)
-        status = pe_exr_encode(parts, count, maps->info.width, maps->info.height, type, bytes, size, error);
+        status = pe_exr_encode(parts, count, from->width, from->height, type, bytes, size, error);
     else
         pe_fail_memory(error, "the parts of a maps file");
     free(parts);
     free(rooms);
+    return status;
+}
+
+static pe_status encode(const pe_maps *maps, pe_pixel_type type, unsigned char **bytes, size_t *size, pe_error *error)
+{
+    pictures all;
+    pe_status status = make_pictures(maps, &all, error);
+
+    if (status != PE_OK)
+        return status;
+    status = encode_pictures(maps, &all, type, bytes, size, error);
+    free(all.own);
     return status;
 }
 
@@ -214,6 +311,44 @@ static pe_status check_version(const header *from)
     if (status == PE_OK) \
         status = (call);
 
+/* What hemispheres have besides. */
+static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
+{
+    pe_status status = PE_OK;
+
+    info->angles = 1;
+    if (info->method != PE_METHOD_HEMISPHERES)
+        return PE_OK;
+    AND_THEN(get_integer(from, "prefenv:angles", &info->angles))
+    AND_THEN(get_integer(from, "prefenv:width", &info->width))
+    AND_THEN(get_integer(from, "prefenv:height", &info->height))
+    AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
+    AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
+    if (status == PE_OK && (info->suns < 0 || info->suns > PE_SUNS_MAX))
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:suns %d is out of range; at most %d can be",
+                       from->name, info->suns, PE_SUNS_MAX);
+    return status;
+}
+
+static pe_status read_sun(const header *from, int k, pe_suns *suns)
+{
+    char name[SUN_NAME_MAX];
+    pe_status status;
+
+    name_sun(k, "direction", name);
+    status = get_vector(from, 0, name, suns->direction[k]);
+    if (status == PE_OK && !(fabs(pe_dot(suns->direction[k], suns->direction[k]) - 1) < 1e-6))
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not of length 1", from->name, name);
+    name_sun(k, "power", name);
+    AND_THEN(get_vector(from, 0, name, suns->power[k]))
+    for (int c = 0; status == PE_OK && c < 3; c++)
+        if (!(suns->power[k][c] >= 0 && suns->power[k][c] < 1e30))
+            return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not a radiance times solid angle", from->name,
+                           name);
+    suns->count = k + 1;
+    return status;
+}
+
 static pe_status read_info(const header *from, pe_maps_info *info)
 {
     pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
@@ -240,21 +375,44 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     pe_exr_get_attribute(from->file, 0, &ndf_name);
     info->source_name = source.string;
     info->ndf_name = ndf_name.string;
-    return PE_OK;
+    return method == PE_METHOD_DEFAULT ? missing(from, "prefenv:method") : read_hemispheres_info(from, info);
 }
 
-/* Parts of one size, as many as there are images; the size goes into info. */
+/* How many parts there are to be; 0: a count of normals that cannot be. */
+static int expected_parts(const pe_maps_info *info)
+{
+    switch (info->method) {
+    case PE_METHOD_BASELINE:
+        return 1;
+    case PE_METHOD_REPRESENTATIVE:
+        return info->normals / 2;
+    case PE_METHOD_DEFAULT:
+    case PE_METHOD_HEMISPHERES:
+        break;
+    }
+    return info->angles;
+}
+
+static pe_status check_part_count(const header *from, const pe_maps_info *info)
+{
+    int parts = pe_exr_part_count(from->file), expected = expected_parts(info);
+
+    if (parts == expected)
+        return PE_OK;
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has %d parts where %d normals and %d angles need %d", from->name,
+                   parts, info->normals, info->angles, expected);
+}
+
+/* Parts of one size; of lat-long maps, it is theirs and goes into info. */
 static pe_status check_parts(const header *from, pe_maps_info *info)
 {
-    int parts = pe_exr_part_count(from->file);
-    int expected = info->method == PE_METHOD_BASELINE ? 1 : info->normals / 2;
     long long first_width, first_height;
+    pe_status status = check_part_count(from, info);
 
-    if (parts != expected)
-        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has %d parts where %d normals need %d", from->name, parts,
-                       info->normals, expected);
+    if (status != PE_OK)
+        return status;
     pe_exr_part_size(from->file, 0, &first_width, &first_height);
-    for (int k = 1; k < parts; k++) {
+    for (int k = 1; k < pe_exr_part_count(from->file); k++) {
         long long width, height;
 
         pe_exr_part_size(from->file, k, &width, &height);
@@ -262,6 +420,8 @@ static pe_status check_parts(const header *from, pe_maps_info *info)
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: part %d is %lld x %lld, part 0 is %lld x %lld",
                            from->name, k, width, height, first_width, first_height);
     }
+    if (info->method == PE_METHOD_HEMISPHERES)
+        return PE_OK;
     if (first_width > PE_MAPS_SIDE_MAX || first_height > PE_MAPS_SIDE_MAX)
         return pe_fail(from->error, PE_ERROR_LIMIT, "%s: size %lld x %lld is more than %d on a side", from->name,
                        first_width, first_height, PE_MAPS_SIDE_MAX);
@@ -275,7 +435,7 @@ static pe_status check_normal(const header *from, const pe_maps *maps, int k)
     double expected[3], n[3] = { 0, 0, 0 };
     pe_status status;
 
-    if (!maps->geodesic)
+    if (maps->info.method != PE_METHOD_REPRESENTATIVE)
         return PE_OK;
     pe_maps_normal(maps, k, expected);
     status = get_vector(from, k, "prefenv:normal", n);
@@ -285,18 +445,59 @@ static pe_status check_normal(const header *from, const pe_maps *maps, int k)
     return status;
 }
 
-static pe_status read_image(const header *from, pe_maps *maps, int k)
+static pe_status read_part(const header *from, int k, float *rgb, size_t values)
 {
-    float *rgb = maps->rgb + (size_t)k * pe_maps_image_values(maps);
-    pe_status status = check_normal(from, maps, k);
+    pe_status status = pe_exr_read_part(from->file, k, rgb, from->error);
 
-    AND_THEN(pe_exr_read_part(from->file, k, rgb, from->error))
-    if (status != PE_OK)
-        return status;
-    for (size_t v = 0; v < pe_maps_image_values(maps); v++)
+    for (size_t v = 0; status == PE_OK && v < values; v++)
         if (!isfinite(rgb[v]))
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: part %d holds a value that is not finite", from->name, k);
-    return PE_OK;
+    return status;
+}
+
+static pe_status read_latlong(const header *from, pe_maps *maps)
+{
+    pe_status status = PE_OK;
+
+    for (int k = 0; status == PE_OK && k < maps->info.images; k++) {
+        status = check_normal(from, maps, k);
+        AND_THEN(read_part(from, k, pe_maps_image_to_fill(maps, k), pe_maps_image_values(maps)))
+    }
+    return status;
+}
+
+static pe_status check_atlas(const header *from, const pe_atlas *atlas)
+{
+    long long width, height;
+
+    pe_exr_part_size(from->file, 0, &width, &height);
+    if (width == atlas->width && height == atlas->height)
+        return PE_OK;
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: is %lld x %lld where %d maps of %d x %d need %d x %d", from->name,
+                   width, height, atlas->count, atlas->tile_width, atlas->tile_height, atlas->width, atlas->height);
+}
+
+static pe_status read_hemispheres(const header *from, pe_maps *maps)
+{
+    pe_atlas atlas = atlas_of(&maps->info);
+    size_t values = 3 * (size_t)atlas.width * (size_t)atlas.height;
+    float *picture;
+    pe_status status = check_atlas(from, &atlas);
+
+    for (int k = 0; status == PE_OK && k < maps->info.suns; k++)
+        status = read_sun(from, k, &maps->suns);
+    if (status != PE_OK)
+        return status;
+    picture = malloc(values * sizeof *picture);
+    if (!picture)
+        return pe_fail_memory(from->error, "an atlas of maps");
+    for (int angle = 0; status == PE_OK && angle < maps->info.angles; angle++) {
+        status = read_part(from, angle, picture, values);
+        for (int k = 0; status == PE_OK && k < maps->info.normals; k++)
+            pe_atlas_extract(&atlas, k, picture, pe_maps_image_to_fill(maps, k * maps->info.angles + angle));
+    }
+    free(picture);
+    return status;
 }
 
 static pe_status read_file(const header *from, pe_maps **out)
@@ -313,8 +514,8 @@ static pe_status read_file(const header *from, pe_maps **out)
     if (status != PE_OK)
         return pe_fail(from->error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", from->name,
                        inner.message);
-    for (int k = 0; status == PE_OK && k < maps->info.images; k++)
-        status = read_image(from, maps, k);
+    status = info.method == PE_METHOD_HEMISPHERES ? read_hemispheres(from, maps) : read_latlong(from, maps);
+    AND_THEN(pe_maps_finish(maps, 0, from->error))
     if (status == PE_OK)
         *out = maps;
     else

@@ -319,9 +319,18 @@ void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double d
 typedef struct pe_maps pe_maps;
 
 typedef enum pe_method {
-    PE_METHOD_REPRESENTATIVE = 0, /* [Motegi 3.1]: one map for each representative normal, a pair sharing one image */
-    PE_METHOD_BASELINE            /* one map, the lobe as at normal incidence for every direction [Motegi Fig. 3a] */
+    PE_METHOD_DEFAULT = 0,    /* hemispheres */
+    PE_METHOD_HEMISPHERES,    /* a map of its hemisphere for each representative normal, in its own tangent frame; the
+                                   suns apart: their highlights are exact */
+    PE_METHOD_REPRESENTATIVE, /* [Motegi 3.1]: a pair of opposite normals shares one lat-long map */
+    PE_METHOD_BASELINE        /* one map, the lobe as at normal incidence for every direction [Motegi Fig. 3a] */
 } pe_method;
+
+/* How much memory the automatic choice of normals and sizes may take, in half floats. */
+typedef enum pe_quality {
+    PE_QUALITY_NORMAL = 0, /* 10 MB: the paper's 21 maps of 400 x 200 */
+    PE_QUALITY_HIGH        /* 64 MB */
+} pe_quality;
 
 typedef enum pe_accuracy {
     PE_ACCURACY_AUTO = 0, /* exact up to 400 x 200 environment texels, fast above */
@@ -334,8 +343,11 @@ typedef struct pe_bake_options {
     pe_method method;
     pe_surface surface;  /* both alphas 0: 0.1, or those of the table */
     double direction[3]; /* brush direction, any length; 0 0 0: +y */
-    int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: 42.  Baseline: ignored */
-    int width, height;   /* of a map, in texels, each in [2, 8192]; 0: 400 x 200 */
+    int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: as many as fit.  Baseline: ignored */
+    int width, height;   /* of a map, in texels, each in [8, 8192]; 0: as the lobe needs.  Lat-long maps: 400 x 200 */
+    int angles;          /* hemispheres: brush directions each normal is filtered for, 1 or 4 to 64; 0: 1 */
+    pe_quality quality;
+    double error; /* the relative error wanted of what is looked up, 0.0005 to 0.1; 0: what `quality` gives */
     pe_accuracy accuracy;
     int threads; /* 0: one a processor */
     pe_progress *progress;
@@ -353,17 +365,24 @@ typedef struct pe_maps_info {
     double direction[3];
     int normals;       /* 0 for baseline */
     int frequency;     /* of the geodesic sphere; 0 for baseline */
-    int images;        /* lat-long images held: normals / 2, or 1 */
+    int angles;        /* brush directions, half a turn / angles apart; 1: `direction` alone */
+    int images;        /* held: normals * angles; lat-long: normals / 2, or 1 */
     int width, height; /* of each */
+    int suns;          /* lights kept apart from the images */
     const char *source_name;
     int source_width, source_height;
     pe_accuracy accuracy;  /* EXACT or FAST */
-    double error_estimate; /* relative L2 error against Eq. 5 where n.r > 0.15; 0 for exact */
+    double error_estimate; /* relative L2 error of the texels against Eq. 5 where n.r > 0.15; 0 for exact */
+    double lookup_error;   /* the same of linear lookups for normals and views of every kind, against pe_exact; 0 for
+                              lat-long maps: not measured */
 } pe_maps_info;
 
 const pe_maps_info *pe_maps_get_info(const pe_maps *maps);
 
-/* Image k, 3 * width * height floats: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k. */
+/* Image k, 3 * width * height floats.
+ * Hemispheres: that of the normal n_k/angles with its brush turned by k % angles; src/disc.h says which texel looks
+ * where, those beyond the horizon carry on as the last within.  Suns are not in it.
+ * Lat-long: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k. */
 const float *pe_maps_image(const pe_maps *maps, int k);
 void pe_maps_normal(const pe_maps *maps, int k, double n[3]); /* n_k, unit */
 
@@ -397,8 +416,10 @@ typedef struct pe_sampling {
 } pe_sampling;
 
 /* The reflected radiance towards o at a surface of normal n: [Motegi Eq. 3] with the interpolation asked for.  n and o
- * of any length but zero; if o lies behind the surface, n is turned to face it.  `sampling` may be NULL (defaults). */
-void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double n[3], const double o[3], double rgb[3]);
+ * of any length but zero; if o lies behind the surface, n is turned to face it.  `sampling` may be NULL (defaults).
+ * `direction` is the brush's at this point, of any length but zero; NULL, or maps of one angle: the one of the file. */
+void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double direction[3], const double n[3],
+               const double o[3], double rgb[3]);
 
 #ifdef __cplusplus
 }

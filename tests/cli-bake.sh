@@ -6,7 +6,7 @@
 work=$(mktemp -d) && cd "$work" || bail_out "no folder to work in"
 trap 'rm -rf "$work"' EXIT
 
-quick="--size 16x8 --normals 12"
+quick="--method representative --size 16x8 --normals 12"
 
 # flat_hdr WIDTH HEIGHT: a Radiance picture without run lengths, all of one colour.
 flat_hdr()
@@ -35,6 +35,13 @@ is "$("$PREFENV" bake env.hdr -o j.exr --json --alpha 0.2,0.1 $quick | jq -c '[.
 # shellcheck disable=SC2086
 "$PREFENV" bake env.hdr -o f.exr --quiet --fast $quick
 is "$("$PREFENV" info --json f.exr | jq -r .accuracy)" fast "--fast is fast, and recorded"
+like "$("$PREFENV" bake env.exr -o h.exr --normals 42 --size 12x12 2>&1)" \
+    "^h.exr: 42 maps of 12x12, [0-9.]+ MB, in [0-9.]+ s, exact; lookups [0-9.e-]+ %$" \
+    "hemispheres by default, which say their error"
+is "$("$PREFENV" bake env.hdr -o p.exr --json --paper | jq -c '[.method, .normals, .images, .width, .height]')" \
+    '["representative",42,21,400,200]' "--paper is the paper's settings"
+said=$("$PREFENV" bake env.hdr -o k.exr --json --normals 12 --size 12x12 --angles 4)
+is "$(jq -c '[.angles, .images]' <<<"$said")" '[4,48]' "--angles"
 "$PREFENV" bake env.hdr -o b.exr --quiet --method baseline --size 16x8
 is "$("$PREFENV" info --json b.exr | jq -c '[.method, .images, .normals]')" '["baseline",1,0]' "--method baseline"
 
@@ -135,7 +142,7 @@ else
 fi
 if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=8k tmpfs small 2>/dev/null; then
     trap 'umount "$work/small"; rm -rf "$work"' EXIT
-    said=$("$PREFENV" bake env.hdr -o small/x.exr --normals 42 --size 64x32 2>&1)
+    said=$("$PREFENV" bake env.hdr -o small/x.exr --paper 2>&1)
     is "$? $(wc -l <<<"$said")" "2 1" "a full disk: exit code 2, one line"
     is "$(ls small)" "" "a full disk: nothing is left on it"
 else

@@ -10,7 +10,8 @@ trap 'rm -rf "$work"' EXIT
 oiiotool --pattern constant:color=1,0.5,0.25 32x16 3 -o flat.exr --fill:color=90,20,5 1x1+9+5 -o spot.exr ||
     bail_out "oiiotool does not work"
 for env in flat.exr spot.exr; do
-    "$PREFENV" bake $env -o "${env%.*}.pe.exr" --alpha 0.3 --size 64x32 --float --quiet || bail_out "bake does not work"
+    "$PREFENV" bake $env -o "${env%.*}.pe.exr" --alpha 0.3 --paper --size 64x32 --float --quiet ||
+        bail_out "bake does not work"
 done
 
 eval_of() # LINES [OPTION...]; what is printed to both streams, and the exit code

@@ -9,13 +9,15 @@ trap 'rm -rf "$work"' EXIT
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
     printf '\200\100\040\201%.0s' $(seq 32)
 } >'a "city".hdr'
-"$PREFENV" bake 'a "city".hdr' -o maps.exr --alpha 0.2,0.05 --direction 1,0,0 --normals 42 --size 16x8 --quiet ||
+"$PREFENV" bake 'a "city".hdr' -o maps.exr --alpha 0.2,0.05 --direction 1,0,0 --paper --size 16x8 --quiet ||
     bail_out "bake does not work"
 
 json=$("$PREFENV" info --json maps.exr)
-is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 1, method: "representative", ndf: "beckmann", ndf_name: "",
-    alpha: [0.2, 0.05], direction: [1, 0, 0], normals: 42, frequency: 2, images: 21, width: 16, height: 8,
-    source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0}')" \
+is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 2, method: "representative",
+    ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
+    normals: 42, frequency: 2, angles: 1, suns: 0, images: 21, width: 16, height: 8,
+    source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0,
+    lookup_error: 0}')" \
     "--json says all, and is JSON"
 
 text=$("$PREFENV" info maps.exr)
@@ -34,6 +36,13 @@ like "$header" 'beckmann|Beckmann' "and the normal distribution"
 like "$header" 'a "city".hdr' "and the source"
 like "$(oiiotool --info -v maps.exr)" '21 subimages' "oiiotool sees the images"
 like "$(oiiotool --info -v maps.exr)" 'prefenv' "and Prefenv's attributes"
+
+"$PREFENV" bake 'a "city".hdr' -o hemispheres.exr --normals 42 --size 12x10 --quiet || bail_out "bake does not work"
+text=$("$PREFENV" info hemispheres.exr)
+like "$text" '^normals    42 \(frequency 2\), each with a picture of its hemisphere$' "hemispheres: the normals"
+like "$text" '^images     42 of 12x10$' "and the images"
+like "$text" '^accuracy   exact; lookups [0-9.e-]+ %$' "and the errors"
+like "$(oiiotool --info hemispheres.exr)" '72 x +70' "an atlas of six by seven"
 
 # A file that is no maps file, each way one can be.
 oiiotool maps.exr --subimage 0 --eraseattrib '.*' -o plain.exr

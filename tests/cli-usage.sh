@@ -55,7 +55,9 @@ options_of()
 }
 
 is "$(options_of bake)" \
-    "alpha direction exact fast float help json method ndf normals output quiet size threads " "the options of bake"
+    "alpha angles direction error exact fast float help json method ndf normals output paper quality quiet size \
+threads " \
+    "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
 is "$(options_of exact)" "alpha direction help ndf quiet threads " "the options of exact"
@@ -118,7 +120,7 @@ done <<'TABLE'
 --ndf ./no.ndf.exr|no.ndf.exr
 --ndf ./no.ndf.exr --alpha 0.1|--alpha does not go with --ndf
 --ndf phong --alpha 1.5|alpha 1.5, 1.5 is out of range for phong; each lies between 0.001 and 1
---method best|not known; what there is: representative, baseline
+--method best|not known; what there is: hemispheres, representative, baseline
 --threads 0|out of range: 1 to 256
 --exact --fast|--exact and --fast exclude each other
 TABLE

@@ -14,7 +14,8 @@
 
 static pe_maps *bake(const pe_env *env, double alpha_x, double alpha_y, pe_accuracy accuracy)
 {
-    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
+    pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
+                                .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
                                 .normals = 12,
                                 .width = 80,
                                 .height = 40,

@@ -132,7 +132,8 @@ static void test_exact(const environment *e, pe_ndf_kind kind, double alpha_x, d
 static void test_narrow(double alpha)
 {
     environment e = { "noise", 128, 64, reference_noise(128, 64, 8) };
-    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha, alpha, NULL },
+    pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
+                                .surface.ndf = { PE_NDF_BECKMANN, alpha, alpha, NULL },
                                 .normals = 12,
                                 .width = 37,
                                 .height = 18,
@@ -168,7 +169,10 @@ static void test_narrow(double alpha)
 static void test_equator(int width, int height)
 {
     float *rgb = reference_constant(width, height, 0);
-    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.2, NULL }, .width = width, .height = height };
+    pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
+                                .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.2, NULL },
+                                .width = width,
+                                .height = height };
     pe_env *env = NULL;
     pe_maps *maps = NULL;
     double worst = 0;

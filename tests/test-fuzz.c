@@ -37,7 +37,7 @@ static void seed_maps(seed *s, pe_pixel_type type)
     char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
     float *rgb = reference_noise(16, 8, 1);
     pe_bake_options options = {
-        .normals = 12, .width = 8, .height = 4, .surface.ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL }
+        .normals = 12, .width = 8, .height = 8, .surface.ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL }
     };
     pe_env *env;
     pe_maps *maps = NULL;
@@ -214,7 +214,7 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
         static const double n[3] = { 1, 2, 3 };
         double rgb[3];
 
-        pe_sample(maps, NULL, n, n, rgb);
+        pe_sample(maps, NULL, NULL, n, n, rgb);
         pe_maps_free(maps);
     } else {
         sound &= error.message[0] && !strchr(error.message, '\n');

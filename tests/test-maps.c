@@ -62,7 +62,8 @@ static pe_env *noise(int width, int height)
     return env;
 }
 
-static const pe_bake_options small = { .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.07, NULL },
+static const pe_bake_options small = { .method = PE_METHOD_REPRESENTATIVE,
+                                       .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.07, NULL },
                                        .direction = { 1, 2, 3 },
                                        .normals = 42,
                                        .width = 40,

@@ -184,9 +184,13 @@ static void test_refusals(void)
 
 static pe_maps *bake(const pe_env *env, const pe_ndf *ndf, pe_accuracy accuracy, int threads)
 {
-    pe_bake_options options = {
-        .surface.ndf = *ndf, .normals = 12, .width = 60, .height = 30, .accuracy = accuracy, .threads = threads
-    };
+    pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
+                                .surface.ndf = *ndf,
+                                .normals = 12,
+                                .width = 60,
+                                .height = 30,
+                                .accuracy = accuracy,
+                                .threads = threads };
     pe_maps *maps;
     pe_error error;
 

@@ -18,7 +18,8 @@ typedef struct bake_settings {
     int method;
     cli_surface surface;
     double direction[3];
-    int normals, size[2];
+    int paper, normals, angles, size[2], quality;
+    double error;
     int exact, fast, floats;
     int threads, json, quiet;
 } bake_settings;
@@ -29,26 +30,43 @@ static const cli_operand operands[] = {
 };
 
 static const cli_choice methods[] = {
+    { "hemispheres", PE_METHOD_HEMISPHERES },
     { "representative", PE_METHOD_REPRESENTATIVE },
     { "baseline", PE_METHOD_BASELINE },
+    { NULL, 0 },
+};
+
+static const cli_choice qualities[] = {
+    { "normal", PE_QUALITY_NORMAL },
+    { "high", PE_QUALITY_HIGH },
     { NULL, 0 },
 };
 
 static const cli_option options[] = {
     { "output", 'o', "MAPS", CLI_TEXT, offsetof(bake_settings, output), 0, 0, NULL, NULL, 1,
       "the maps file to write, an OpenEXR; it appears whole or not at all" },
-    { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, "representative", 0,
-      "representative: a map for each of --normals; baseline: one map, its lobe the one at normal incidence, for "
-      "comparison" },
+    { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, NULL, 0,
+      "hemispheres (the default): a picture of its hemisphere for each normal; representative: opposite normals share "
+      "a "
+      "lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison" },
+    { "paper", 0, NULL, CLI_SWITCH, offsetof(bake_settings, paper), 0, 0, NULL, NULL, 0,
+      "the paper's settings: --method representative --normals 42 --size 400x200" },
     CLI_OPTION_NDF(bake_settings),
     CLI_OPTION_ALPHA(bake_settings),
     CLI_OPTION_DIRECTION(bake_settings),
-    { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), NORMALS_MIN, NORMALS_MAX, NULL, "42", 0,
-      "representative normals: 12, 42, 92, 162, ... 10f^2+2" },
-    { "size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, "400x200", 0,
-      "width and height of each map" },
+    { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), NORMALS_MIN, NORMALS_MAX, NULL, NULL, 0,
+      "representative normals: 12, 42, 92, 162, ... 10f^2+2. Default: as alpha and --error need, of lat-long maps 42" },
+    { "size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, NULL, 0,
+      "width and height of each map. Default: as alpha and --error need, of lat-long maps 400x200" },
+    { "angles", 0, "K", CLI_INTEGER, offsetof(bake_settings, angles), 1, 64, NULL, "1", 0,
+      "filter each normal for K brush directions, 4 to 64, so that the brush may point anywhere; 1: along "
+      "--direction" },
+    { "quality", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, quality), 0, 0, qualities, "normal", 0,
+      "how much memory normals and sizes may take: normal, 10 MB; high, 64 MB" },
+    { "error", 0, "E", CLI_NUMBER, offsetof(bake_settings, error), 0.0005, 0.1, NULL, NULL, 0,
+      "the relative error wanted of what is looked up: 0.01 is one percent. Default: what --quality gives" },
     { "exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
-      "weigh every texel of the environment. Default: exact up to 400x200 texels of ENV, fast above" },
+      "weigh every texel of the environment. Default: exact up to 128x64 texels of ENV, fast above" },
     { "fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
       "gather texels in clusters; the error is estimated and recorded" },
     { "float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
@@ -67,6 +85,10 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "--exact and --fast exclude each other; give one of them");
         return CLI_FAILURE;
     }
+    if (settings->paper && settings->method && settings->method != PE_METHOD_REPRESENTATIVE) {
+        cli_error("bake", "--paper is --method representative; give one of them");
+        return CLI_FAILURE;
+    }
     return cli_check_output("bake", settings->output, inputs);
 }
 
@@ -82,12 +104,15 @@ static pe_status bake_maps(const bake_settings *settings, const pe_surface *surf
     progress bar;
     pe_status status;
     pe_bake_options bake = {
-        .method = (pe_method)settings->method,
+        .method = settings->paper ? PE_METHOD_REPRESENTATIVE : (pe_method)settings->method,
         .surface = *surface,
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
         .width = settings->size[0],
         .height = settings->size[1],
+        .angles = settings->angles,
+        .quality = (pe_quality)settings->quality,
+        .error = settings->error,
         .accuracy = settings->exact  ? PE_ACCURACY_EXACT
                     : settings->fast ? PE_ACCURACY_FAST
                                      : PE_ACCURACY_AUTO,

@@ -5,7 +5,9 @@
 
 static const char *method_name(pe_method method)
 {
-    return method == PE_METHOD_BASELINE ? "baseline" : "representative";
+    static const char *const names[] = { "default", "hemispheres", "representative", "baseline" };
+
+    return names[method];
 }
 
 static const char *ndf_name(const pe_ndf *ndf)
@@ -17,10 +19,15 @@ static const char *ndf_name(const pe_ndf *ndf)
 
 void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
 {
+    int used;
+
     if (info->accuracy == PE_ACCURACY_FAST)
-        snprintf(text, DESCRIBE_BYTES, "fast, an estimated %.2g %% from exact filtering", 100 * info->error_estimate);
+        used = snprintf(text, DESCRIBE_BYTES, "fast, an estimated %.2g %% from exact filtering",
+                        100 * info->error_estimate);
     else
-        snprintf(text, DESCRIBE_BYTES, "exact");
+        used = snprintf(text, DESCRIBE_BYTES, "exact");
+    if (info->method == PE_METHOD_HEMISPHERES)
+        snprintf(text + used, DESCRIBE_BYTES - (size_t)used, "; lookups %.2g %%", 100 * info->lookup_error);
 }
 
 void describe_maps(const pe_maps_info *info)
@@ -31,6 +38,12 @@ void describe_maps(const pe_maps_info *info)
     printf("method     %s\n", method_name(info->method));
     if (info->method == PE_METHOD_REPRESENTATIVE)
         printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
+    if (info->method == PE_METHOD_HEMISPHERES)
+        printf("normals    %d (frequency %d), each with a picture of its hemisphere\n", info->normals, info->frequency);
+    if (info->angles > 1)
+        printf("angles     %d brush directions\n", info->angles);
+    if (info->suns)
+        printf("suns       %d lights kept apart\n", info->suns);
     printf("images     %d of %dx%d\n", info->images, info->width, info->height);
     if (info->surface.ndf.kind == PE_NDF_TABLE)
         printf("ndf        table %s\n", *info->ndf_name ? info->ndf_name : "(no name)");
@@ -60,6 +73,8 @@ void describe_maps_json(json *out, const pe_maps_info *info)
     json_numbers(out, "direction", direction, 3);
     json_integer(out, "normals", info->normals);
     json_integer(out, "frequency", info->frequency);
+    json_integer(out, "angles", info->angles);
+    json_integer(out, "suns", info->suns);
     json_integer(out, "images", info->images);
     json_integer(out, "width", info->width);
     json_integer(out, "height", info->height);
@@ -68,4 +83,5 @@ void describe_maps_json(json *out, const pe_maps_info *info)
     json_integer(out, "source_height", info->source_height);
     json_text(out, "accuracy", info->accuracy == PE_ACCURACY_FAST ? "fast" : "exact");
     json_number(out, "error_estimate", info->error_estimate);
+    json_number(out, "lookup_error", info->lookup_error);
 }

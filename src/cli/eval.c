@@ -41,7 +41,7 @@ static void look_up(const double n[3], const double o[3], const void *data, doub
 {
     const lookup *l = data;
 
-    pe_sample(l->maps, &l->sampling, n, o, rgb);
+    pe_sample(l->maps, &l->sampling, NULL, n, o, rgb);
 }
 
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)

@@ -1,0 +1,105 @@
+/* choose.c - see choose.h.
+ *
+ * Two errors are balanced, both fitted to photographs: that of interpolating between normals, which falls with the
+ * frequency f of the geodesic sphere nearly as its triangles' area, and that of the spline in a map, which depends on
+ * texel pitch over alpha. */
+#include "choose.h"
+
+#include "disc.h"
+#include "geodesic.h"
+#include "ndf.h"
+
+#include <math.h>
+
+#define NORMALS_ERROR 0.30
+#define NORMALS_POWER 1.8
+#define SPLINE_ERROR 0.04
+#define SPLINE_POWER 3.0
+
+#define PITCH_MIN 0.15 /* of alpha: finer texels change nothing */
+#define PITCH_MAX 2.0
+#define PITCH_STEPS 100
+#define BYTES_PER_TEXEL 6 /* three half floats */
+
+static double budget_of(pe_quality quality)
+{
+    return quality == PE_QUALITY_HIGH ? 64e6 : 21 * 400 * 200 * BYTES_PER_TEXEL;
+}
+
+double pe_wanted_error(const pe_bake_options *options)
+{
+    if (options->error > 0)
+        return options->error;
+    return options->quality == PE_QUALITY_HIGH ? 0.0005 : 0.002;
+}
+
+/* Texels along one axis for a pitch, on the unit disc, of `pitch` times alpha. */
+static int side_of(double alpha, double pitch, int most)
+{
+    double side = ceil(2 / (pitch * alpha) + 2 * PE_DISC_MARGIN);
+
+    return (int)fmax(fmin(side, most), 12);
+}
+
+typedef struct plan {
+    int frequency, width, height;
+    double bytes, error;
+} plan;
+
+static plan make_plan(const pe_env *env, const pe_maps_info *info, int frequency, double pitch)
+{
+    /* A hemisphere this wide has the environment's own resolution in its middle. */
+    int most = (int)(2 * M_SQRT2 / M_PI * env->height + 2 * PE_DISC_MARGIN);
+    plan p = { .frequency = frequency };
+    double fineness[2];
+
+    pe_ndf_fineness(&info->surface.ndf, fineness);
+    p.width = info->width ? info->width : side_of(fineness[0], pitch, most);
+    p.height = info->height ? info->height : side_of(fineness[1], pitch, most);
+    p.bytes = (10.0 * frequency * frequency + 2) * info->angles * p.width * p.height * BYTES_PER_TEXEL;
+    p.error = hypot(NORMALS_ERROR * pow(frequency, -NORMALS_POWER), SPLINE_ERROR * pow(pitch, SPLINE_POWER));
+    return p;
+}
+
+static int is_better(const plan *a, const plan *b, double wanted, double budget)
+{
+    int a_fits = a->bytes <= budget, b_fits = b->bytes <= budget;
+
+    if (a_fits != b_fits)
+        return a_fits;
+    if (!a_fits)
+        return a->bytes < b->bytes;
+    if (a->error <= wanted && b->error <= wanted)
+        return a->bytes < b->bytes;
+    return a->error < b->error;
+}
+
+void pe_choose_hemispheres(const pe_env *env, const pe_bake_options *options, pe_maps_info *info)
+{
+    double wanted = pe_wanted_error(options),
+           budget = budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
+    int given = pe_geodesic_frequency(info->normals);
+    plan best = make_plan(env, info, given ? given : 2, PITCH_MAX);
+
+    for (int f = given ? given : 2; f <= (given ? given : PE_FREQUENCY_MAX); f++)
+        for (int step = 0; step <= PITCH_STEPS; step++) {
+            double pitch = PITCH_MAX * pow(PITCH_MIN / PITCH_MAX, (double)step / PITCH_STEPS);
+            plan p = make_plan(env, info, f, pitch);
+
+            if (is_better(&p, &best, wanted, budget))
+                best = p;
+        }
+    if (!info->normals)
+        info->normals = 10 * best.frequency * best.frequency + 2;
+    info->width = best.width;
+    info->height = best.height;
+}
+
+void pe_choose_fine_size(const pe_ndf *ndf, int *width, int *height)
+{
+    double fineness[2];
+
+    pe_ndf_fineness(ndf, fineness);
+    *width = side_of(fineness[0], 0.25, 8192);
+    *height = side_of(fineness[1], 0.25, 8192);
+}

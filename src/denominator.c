@@ -1,0 +1,119 @@
+/* denominator.c - see denominator.h.
+ *
+ * With dw = 4 (o.h) dh, W(o) is the mean of 4 (o.h) / cos(theta_h) over half vectors drawn with density D cos(theta_h),
+ * those left out that send the light below the horizon.  Each is drawn with its opposite, (-x, -y, z), so that the
+ * mean is exact to first order however few they are. */
+#include "denominator.h"
+
+#include "disc.h"
+#include "filter.h"
+#include "ndf.h"
+#include "sequence.h"
+#include "spline.h"
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+
+#define SIDE 48
+#define PAIRS 1024
+
+struct pe_denominator {
+    pe_disc disc;
+    double farthest;
+    float coefficients[SIDE * SIDE];
+};
+
+typedef double direction[3];
+
+static double weigh(const double h[3], const double o[3])
+{
+    double o_h = pe_dot(o, h);
+
+    return o_h > 0 && 2 * o_h * h[2] > o[2] ? 4 * o_h / h[2] : 0;
+}
+
+static double mean_weight(const direction *h, const double o[3])
+{
+    double sum = 0;
+
+    for (int k = 0; k < PAIRS; k++) {
+        const double opposite[3] = { -h[k][0], -h[k][1], h[k][2] };
+
+        sum += weigh(h[k], o) + weigh(opposite, o);
+    }
+    return sum / (2 * PAIRS);
+}
+
+/* Texels beyond the horizon carry on with the horizon's. */
+static void fill(const direction *h, pe_denominator *lobe)
+{
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            double o[3] = { 0, 0, 1 };
+
+            if (!pe_disc_direction(&lobe->disc, x, y, o)) {
+                o[0] = x + 0.5 - SIDE / 2.0;
+                o[1] = y + 0.5 - SIDE / 2.0;
+                o[2] = 0;
+                pe_normalize(o, o);
+            }
+            lobe->coefficients[y * SIDE + x] = (float)mean_weight(h, o);
+        }
+    pe_spline_coefficients(lobe->coefficients, SIDE, SIDE, 1);
+}
+
+pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error)
+{
+    static const double middle[2] = { 0.5, 0.5 };
+    pe_denominator *lobe = malloc(sizeof *lobe);
+    direction *h = malloc(PAIRS * sizeof *h);
+    double reach;
+
+    if (!lobe || !h) {
+        free(lobe);
+        free(h);
+        return pe_fail_memory(error, "the weights of a lobe");
+    }
+    lobe->disc = (pe_disc){ SIDE, SIDE };
+    reach = pe_ndf_reach(ndf, PE_LOBE_CUTOFF);
+    lobe->farthest = 1 + reach * reach;
+    for (int k = 0; k < PAIRS; k++) {
+        double point[2];
+
+        pe_lattice_point(k, middle, point);
+        pe_ndf_sample(ndf, point[0], point[1], h[k]);
+    }
+    fill(h, lobe);
+    free(h);
+    *out = lobe;
+    return PE_OK;
+}
+
+void pe_denominator_free(pe_denominator *lobe)
+{
+    free(lobe);
+}
+
+double pe_denominator_at(const pe_denominator *lobe, const double o[3])
+{
+    const float toward[3] = { (float)o[0], (float)o[1], (float)o[2] };
+    float point[2], across[4], down[4];
+    double sum = 0;
+    int x, y;
+
+    pe_disc_point(&lobe->disc, toward, point);
+    x = (int)(point[0] - 0.5f);
+    y = (int)(point[1] - 0.5f);
+    pe_spline_weights(point[0] - 0.5f - (float)x, across);
+    pe_spline_weights(point[1] - 0.5f - (float)y, down);
+    for (int j = 0; j < 4; j++)
+        for (int i = 0; i < 4; i++)
+            sum += (double)(down[j] * across[i] * lobe->coefficients[(y + j - 1) * SIDE + x + i - 1]);
+    return sum;
+}
+
+double pe_denominator_farthest(const pe_denominator *lobe)
+{
+    return lobe->farthest;
+}

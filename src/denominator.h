@@ -1,0 +1,21 @@
+/* denominator.h - the denominator of Eq. 5 in closed form: how much weight a whole hemisphere of light has. */
+#ifndef PE_DENOMINATOR_H
+#define PE_DENOMINATOR_H
+
+#include "prefenv.h"
+
+/* W(o), the integral of D(h) over the directions w of the hemisphere, h = normalize(o + w), for every viewer o: what
+ * the sum of D(h_j) over an environment's solid angles approximates.  [Motegi Eq. 4] */
+typedef struct pe_denominator pe_denominator;
+
+/* Takes a few milliseconds. */
+pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error);
+void pe_denominator_free(pe_denominator *lobe); /* NULL is allowed */
+
+/* W(o), o unit and above the horizon of the tangent frame. */
+double pe_denominator_at(const pe_denominator *lobe, const double o[3]);
+
+/* 1 / cos^2(theta_h) of the farthest half vectors that count; may be INFINITY. */
+double pe_denominator_farthest(const pe_denominator *lobe);
+
+#endif

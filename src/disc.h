@@ -1,0 +1,58 @@
+/* disc.h - a hemisphere as a picture: the Lambert azimuthal equal-area projection of a normal's tangent frame.
+ *
+ * The unit direction (x, y, z), z >= 0, lies at (p, q) = (x, y) / sqrt(1 + z): the pole in the middle, the horizon on
+ * the unit circle, equal areas everywhere, no seam, no crease, one square root and no trigonometry [Snyder].  Toward
+ * the horizon its scale along the rim is 1.4 times that in the middle: where a glossy lobe is narrow across the plane
+ * of incidence, and nowhere else, texels are denser. */
+#ifndef PE_DISC_H
+#define PE_DISC_H
+
+#include <math.h>
+
+/* Texels between the unit circle and the picture's edge, so that the sixteen taps of a cubic stay inside. */
+#define PE_DISC_MARGIN 1.5
+
+#define PE_DISC_SIDE_MIN 8
+
+typedef struct pe_disc {
+    int width, height; /* along t and along b */
+} pe_disc;
+
+/* Half the unit circle's diameter, in texels. */
+static inline double pe_disc_radius(int side)
+{
+    return side / 2.0 - PE_DISC_MARGIN;
+}
+
+/* The direction at the centre of texel (x, y), in the tangent frame.  Returns 1 if the texel is on the hemisphere; if
+ * it lies beyond the horizon, 0, and direction is left alone. */
+static inline int pe_disc_direction(const pe_disc *disc, int x, int y, double direction[3])
+{
+    double p = (x + 0.5 - disc->width / 2.0) / pe_disc_radius(disc->width);
+    double q = (y + 0.5 - disc->height / 2.0) / pe_disc_radius(disc->height);
+    double square = p * p + q * q, scale = sqrt(2 - square);
+
+    if (!(square < 1))
+        return 0;
+    direction[0] = p * scale;
+    direction[1] = q * scale;
+    direction[2] = 1 - square;
+    return 1;
+}
+
+/* Where the unit direction lies, in texels from the picture's corner; a direction below the horizon lies on it. */
+static inline void pe_disc_point(const pe_disc *disc, const float direction[3], float point[2])
+{
+    float z = direction[2];
+    float scale =
+        z > 0 ? 1 / sqrtf(1 + z) : 1 / sqrtf(direction[0] * direction[0] + direction[1] * direction[1] + 1e-30f);
+
+    point[0] = direction[0] * scale * (float)pe_disc_radius(disc->width) + 0.5f * (float)disc->width;
+    point[1] = direction[1] * scale * (float)pe_disc_radius(disc->height) + 0.5f * (float)disc->height;
+}
+
+/* Gives the texels beyond the horizon, which a cubic's taps reach, the value of the last texel within on their
+ * radius. */
+void pe_disc_continue(const pe_disc *disc, float *rgb);
+
+#endif

@@ -1,0 +1,91 @@
+/* sample_hemispheres.c - one bicubic lookup a hemisphere, mixed between representative normals and brush angles.
+ *
+ * In the frame of n_k the direction r is a point of n_k's picture, and the cubic B-spline there takes 4 x 4 texels.  A
+ * map whose horizon r is below answers with its horizon's, so that nothing jumps.  Where the brush may point anywhere,
+ * its direction at n is carried along to n_k's tangent plane, and the four angles about it are mixed by a cubic that
+ * goes round and round in half turns.  Each angle's picture has its own turned frame, so that a narrow lobe lies along
+ * its axes. */
+#include "look.h"
+#include "sample.h"
+#include "spline.h"
+
+/* A unit vector in n_k's frame. */
+static inline void enter(const float frame[3][3], const float world[3], float local[3])
+{
+    for (int row = 0; row < 3; row++)
+        local[row] = frame[row][0] * world[0] + frame[row][1] * world[1] + frame[row][2] * world[2];
+}
+
+/* What the maps looked up so far add up to. */
+typedef struct mix {
+    const pe_maps *maps;
+    float r[3];
+    float brush[3]; /* along the brush at n; angles > 1 */
+    pe_quad rgb;
+    float weight;
+} mix;
+
+static void add_map(int vertex, double weight, void *data)
+{
+    mix *sum = data;
+    float local[3];
+
+    enter((const float(*)[3])sum->maps->frames[vertex], sum->r, local);
+    sum->rgb += (float)weight * pe_look(sum->maps, vertex, local);
+    sum->weight += (float)weight;
+}
+
+/* A direction of the vertex's frame, in the frame turned by angle k. */
+static void turn(const pe_maps *maps, int k, const float local[3], float turned[3])
+{
+    double angle = M_PI * k / maps->info.angles;
+    float c = (float)cos(angle), s = (float)sin(angle);
+
+    turned[0] = c * local[0] + s * local[1];
+    turned[1] = c * local[1] - s * local[0];
+    turned[2] = local[2];
+}
+
+static void add_angles(int vertex, double weight, void *data)
+{
+    mix *sum = data;
+    int angles = sum->maps->info.angles, first;
+    float local[3], brush[3], turned[3], weights[4], at;
+
+    enter((const float(*)[3])sum->maps->frames[vertex], sum->r, local);
+    enter((const float(*)[3])sum->maps->frames[vertex], sum->brush, brush);
+    at = (float)(atan2((double)brush[1], (double)brush[0]) / M_PI + 1) * (float)angles;
+    first = (int)at;
+    pe_interpolating_weights(at - (float)first, weights);
+    for (int k = 0; k < 4; k++) {
+        int angle = (first + k - 1 + angles) % angles;
+
+        turn(sum->maps, angle, local, turned);
+        sum->rgb += (float)weight * weights[k] * pe_look(sum->maps, vertex * angles + angle, turned);
+    }
+    sum->weight += (float)weight;
+}
+
+/* The brush's tangent t at n. */
+static void set_brush(const pe_view *view, const double direction[3], mix *sum)
+{
+    pe_frame frame;
+
+    pe_frame_make(view->n, direction, &frame);
+    for (int c = 0; c < 3; c++)
+        sum->brush[c] = (float)frame.t[c];
+}
+
+void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3])
+{
+    const double *direction = view->direction ? view->direction : maps->info.direction;
+    mix sum = { maps, { (float)view->r[0], (float)view->r[1], (float)view->r[2] }, { 0 }, { 0, 0, 0, 0 }, 0 };
+
+    if (maps->info.angles > 1)
+        set_brush(view, direction, &sum);
+    pe_visit_normals(maps, sampling, view->n, maps->info.angles > 1 ? add_angles : add_map, &sum);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = fmax((double)(sum.rgb[c] / sum.weight), 0);
+    if (maps->suns.count)
+        pe_suns_add(&maps->suns, &maps->info.surface, maps->denominator, direction, view->n, view->o, rgb);
+}

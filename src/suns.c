@@ -1,0 +1,150 @@
+/* suns.c - see suns.h. */
+#include "suns.h"
+
+#include "env.h"
+#include "filter.h"
+#include "ndf.h"
+#include "status.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The texels of greatest power, in falling order; one more than can be suns. */
+typedef struct ranking {
+    int count, texel[PE_SUNS_MAX + 1];
+    double power[PE_SUNS_MAX + 1];
+} ranking;
+
+static double texel_power(const pe_env *env, int texel)
+{
+    return pe_luminance(env->rgb + 3 * (size_t)texel) * env->grid.solid_angle_sr[texel / env->width];
+}
+
+static void insert(ranking *r, int texel, double power)
+{
+    int k = r->count <= PE_SUNS_MAX ? r->count++ : PE_SUNS_MAX;
+
+    for (; k > 0 && r->power[k - 1] < power; k--) {
+        r->power[k] = r->power[k - 1];
+        r->texel[k] = r->texel[k - 1];
+    }
+    r->power[k] = power;
+    r->texel[k] = texel;
+}
+
+/* Returns the sum of all powers. */
+static double rank(const pe_env *env, ranking *r)
+{
+    double sum = 0;
+
+    r->count = 0;
+    for (int texel = 0; texel < env->width * env->height; texel++) {
+        double power = texel_power(env, texel);
+
+        sum += power;
+        if (r->count <= PE_SUNS_MAX || power > r->power[PE_SUNS_MAX])
+            insert(r, texel, power);
+    }
+    return sum;
+}
+
+int pe_suns_possible(const pe_surface *surface)
+{
+    return surface->weight == PE_WEIGHT_NDF && surface->ndf.kind != PE_NDF_TABLE;
+}
+
+/* The brightest must add SHARE_MIN of the mean radiance in the middle of its highlight; the first texel left behind
+ * must be DIM, or, where the suns are as many as can be, STILL_DIM beside the brightest.  And the lobe must be wider
+ * than a texel, which else is no point. */
+#define SHARE_MIN 0.05
+#define DIM 0.02
+#define STILL_DIM 0.1
+
+static int count_suns(const pe_env *env, const pe_ndf *ndf, const ranking *r, double total)
+{
+    double width[2], highlight;
+
+    pe_ndf_fineness(ndf, width);
+    highlight = r->power[0] / (4 * M_PI * width[0] * width[1]);
+
+    if (r->count <= PE_SUNS_MAX || !(highlight > SHARE_MIN * total / (4 * M_PI)) ||
+        fmin(width[0], width[1]) < 2 * M_PI / env->width)
+        return 0;
+    for (int k = 1; k <= PE_SUNS_MAX; k++)
+        if (r->power[k] < DIM * r->power[0])
+            return k;
+    return r->power[PE_SUNS_MAX] < STILL_DIM * r->power[0] ? PE_SUNS_MAX : 0;
+}
+
+static void take(const pe_env *env, int texel, pe_suns *suns, float *rgb)
+{
+    int k = suns->count++, y = texel / env->width;
+
+    pe_grid_direction(&env->grid, texel % env->width, y, suns->direction[k]);
+    for (int c = 0; c < 3; c++) {
+        suns->power[k][c] = (double)rgb[3 * (size_t)texel + (size_t)c] * env->grid.solid_angle_sr[y];
+        rgb[3 * (size_t)texel + (size_t)c] = 0;
+    }
+}
+
+pe_status pe_suns_draw_out(const pe_env *env, const pe_surface *surface, pe_suns *suns, pe_env **rest, pe_error *error)
+{
+    size_t bytes = 3 * (size_t)env->width * (size_t)env->height * sizeof *env->rgb;
+    float *rgb = malloc(bytes);
+    ranking r = { 0 };
+    double total;
+    int count = 0;
+    pe_status status;
+
+    if (!rgb)
+        return pe_fail_memory(error, "an environment without its suns");
+    memcpy(rgb, env->rgb, bytes);
+    suns->count = 0;
+    if (pe_suns_possible(surface)) {
+        total = rank(env, &r);
+        count = count_suns(env, &surface->ndf, &r, total);
+    }
+    for (int k = 0; k < count; k++)
+        take(env, r.texel[k], suns, rgb);
+    status = pe_env_create(env->width, env->height, rgb, rest, error);
+    free(rgb);
+    return status;
+}
+
+/* D(h) of one sun, h not unit. */
+static double density(const pe_ndf *ndf, const pe_frame *frame, const double h[3])
+{
+    double local[3];
+
+    pe_frame_coordinates(frame, h, local);
+    pe_normalize(local, local);
+    return pe_ndf_evaluate(ndf, local);
+}
+
+void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+                 const double direction[3], const double n[3], const double o[3], double rgb[3])
+{
+    pe_frame frame = { { 0 }, { 0 }, { 0 } };
+    double weight = 0;                                      /* of all light; 0: not yet needed, nor the frame */
+    double farthest = pe_denominator_farthest(denominator); /* 1 / cos^2(theta_h) */
+
+    for (int k = 0; k < suns->count; k++) {
+        const double *w = suns->direction[k];
+        double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, share;
+
+        double cosine = pe_dot(h, n);
+
+        if (!(pe_dot(w, n) > PE_HORIZON) || pe_dot(h, h) > farthest * cosine * cosine)
+            continue;
+        if (weight == 0) {
+            double local[3];
+
+            pe_frame_make(n, direction, &frame);
+            pe_frame_coordinates(&frame, o, local);
+            weight = pe_denominator_at(denominator, local);
+        }
+        share = density(&surface->ndf, &frame, h) / weight;
+        for (int c = 0; c < 3; c++)
+            rgb[c] += share * suns->power[k][c];
+    }
+}
