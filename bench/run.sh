@@ -1,6 +1,6 @@
 #!/bin/bash
 # bench/run.sh - `make bench`: ratios, each against a named rival in the same run, into bench.json of the build tree,
-# and as a table on the terminal.  About three minutes on two idle cores.
+# and as a table on the terminal.  About four minutes on two idle cores.
 #
 # Only the ratios mean anything on another machine, and not even they on a busy one.
 
@@ -35,8 +35,23 @@ ratio() # A B
     awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g", a / b }'
 }
 
+# timed RUNS COMMAND...: sets wall_seconds and cpu_seconds to the least of the runs
+timed()
+{
+    local runs=$1 TIMEFORMAT='%R %U %S' run
+
+    shift
+    for ((run = 0; run < runs; run++)); do
+        { time "$@" >command.log 2>&1; } 2>times.part || die "$1 failed: $(tail -n 3 command.log)"
+        cat times.part
+    done >times.txt
+    wall_seconds=$(sort -g times.txt | awk 'NR == 1 { print $1 }')
+    cpu_seconds=$(awk '{ print $2 + $3 }' times.txt | sort -g | sed -n 1p)
+}
+
 results=()
 table=()
+absent=()
 
 # result NAME VALUE UNIT RIVAL ITS-VALUE RATIO: VALUE and ITS-VALUE in UNIT; RATIO is how many times better ours is
 result()
@@ -89,6 +104,52 @@ head -n $exact_lines lines.txt | "$PREFENV" exact "$hdri" --alpha 0.1 >exact.txt
 exact_rate=$(ratio $exact_lines "$(seconds_since "$start" 4)")
 result 'prefenv eval' "$eval_rate" 'lines/s' 'prefenv exact' "$exact_rate" "$(ratio "$eval_rate" "$exact_rate")"
 
+# ---- rivals: an isotropic map seen head on, and no bake at all ----
+
+# Each is compared with the exact sum of its own definition.  cmgen reads fewer kinds of EXR than prefenv does.
+: "${RIVALS:?call this through make}"
+face=256
+map=886x443 # as many texels as six faces
+texels=$((6 * face * face))
+alpha=0.1
+roughness=0.316227766 # cmgen's: its square is GGX's alpha
+if command -v cmgen oiiotool >/dev/null; then
+    echo 'cmgen ...' >&2
+    oiiotool "$hdri" --fixnan black --clamp:min=0 -d float --compression zip -o plain.exr >/dev/null ||
+        die 'oiiotool could not convert the environment; see above'
+    timed 2 cmgen --quiet --format=exr --size=$face --extract=cube --extract-blur=$roughness plain.exr
+    cmgen_rate=$(ratio $texels "$wall_seconds")
+    cmgen_cpu_rate=$(ratio $texels "$cpu_seconds")
+    timed 3 "$PREFENV" bake plain.exr -o head-on.exr --method baseline --ndf ggx --alpha $alpha --size $map \
+        --error 0.01 --quiet
+    our_rate=$(ratio $((${map%x*} * ${map#*x})) "$wall_seconds")
+    our_cpu_rate=$(ratio $((${map%x*} * ${map#*x})) "$cpu_seconds")
+    "$RIVALS" cube plain.exr cube/plain $alpha >cube.json || die 'rivals failed; see above'
+    "$RIVALS" baseline plain.exr head-on.exr >head-on.json || die 'rivals failed; see above'
+    ours=$(value head-on.json relative_l2)
+    theirs=$(value cube.json relative_l2)
+    rival="filament's cmgen, 1024 samples"
+    result 'baseline map, GGX, alpha 0.1, whole command' "$our_rate" 'texels/s' "$rival" "$cmgen_rate" \
+        "$(ratio "$our_rate" "$cmgen_rate")"
+    result 'the same by processor time' "$our_cpu_rate" 'texels/CPU s' "$rival" "$cmgen_cpu_rate" \
+        "$(ratio "$our_cpu_rate" "$cmgen_cpu_rate")"
+    result 'its relative L2 error' "$ours" '' "$rival" "$theirs" "$(ratio "$theirs" "$ours")"
+else
+    absent+=("filament's cmgen: apt-get install libfilament-tools openimageio-tools")
+fi
+
+echo 'filtered importance sampling ...' >&2
+"$RIVALS" views "$hdri" maps.exr >views.json || die 'rivals failed; see above'
+for samples in 16 32 96; do
+    rival="filtered importance sampling, $samples lookups"
+    ours=$(value views.json maps_per_second)
+    theirs=$(value views.json fis_${samples}_per_second)
+    result 'lookup in the maps, one thread' "$ours" 'views/s' "$rival" "$theirs" "$(ratio "$ours" "$theirs")"
+    ours=$(value views.json maps_relative_l2)
+    theirs=$(value views.json fis_${samples}_relative_l2)
+    result 'its relative L2 error' "$ours" '' "$rival" "$theirs" "$(ratio "$theirs" "$ours")"
+done
+
 # ---- the renderer ----
 
 # traced RUNS NAME SCENE OPTION...: the CPU seconds of tracing, the least of RUNS
@@ -134,11 +195,18 @@ fi
         [ $i = $((${#results[@]} - 1)) ] && comma='' || comma=,
         echo "    ${results[i]}$comma"
     done
-    echo '  ]'
+    echo '  ],'
+    printf '  "not_installed": ['
+    for ((i = 0; i < ${#absent[@]}; i++)); do
+        [ $i = 0 ] || printf ', '
+        printf '"%s"' "${absent[i]}"
+    done
+    echo ']'
     echo '}'
 } >json.part
 mv json.part "$top_builddir/bench.json"
 
 printf '%-46s %10s %-10s %-46s %10s %8s\n' what ours unit rival its ratio
 printf '%s\n' "${table[@]}"
+[ ${#absent[@]} = 0 ] || printf 'not installed: %s\n' "${absent[@]}"
 echo "$top_builddir/bench.json"
