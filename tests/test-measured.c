@@ -143,7 +143,7 @@ static void say_exact(const void *data, const double n[3], const double o[3], do
 
 static void say_baked(const void *data, const double n[3], const double o[3], double rgb[3])
 {
-    pe_sample(data, NULL, n, o, rgb);
+    pe_sample(data, NULL, NULL, n, o, rgb);
 }
 
 static pe_ndf_table *make_table(const pe_slopes *slopes)
