@@ -197,10 +197,11 @@ static void choose_alphas(pe_maps_info *info)
     }
 }
 
-static void choose_info(const pe_env *env, const pe_bake_options *options, pe_maps_info *info)
+static pe_status choose_info(const pe_env *env, const pe_bake_options *options, pe_maps_info *info, pe_error *error)
 {
     static const double plus_y[3] = { 0, 1, 0 };
     const double *d = options->direction;
+    pe_status status;
 
     *info = (pe_maps_info){ .method = options->method ? options->method : PE_METHOD_HEMISPHERES,
                             .surface = options->surface,
@@ -213,14 +214,18 @@ static void choose_info(const pe_env *env, const pe_bake_options *options, pe_ma
                             .source_height = env->height,
                             .accuracy = choose_accuracy(options->accuracy, env) };
     choose_alphas(info);
+    status = pe_surface_check(&info->surface, error);
+    if (status != PE_OK)
+        return status;
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
     if (info->method == PE_METHOD_HEMISPHERES) {
         pe_choose_hemispheres(env, options, info);
-        return;
+        return PE_OK;
     }
     info->normals = info->normals ? info->normals : 42;
     info->width = info->width ? info->width : 400;
     info->height = info->height ? info->height : 200;
+    return PE_OK;
 }
 
 static pe_status check_error(double wanted, pe_error *error)
@@ -237,10 +242,8 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **o
     job j = { .options = options, .report = { options->progress, options->progress_data, 0, 1 } };
     pe_status status = check_error(options->error, error);
 
-    if (status != PE_OK)
-        return status;
-    choose_info(env, options, &info);
-    status = pe_surface_check(&info.surface, error);
+    if (status == PE_OK)
+        status = choose_info(env, options, &info, error);
     if (status == PE_OK)
         status = pe_maps_create(&info, &j.maps, error);
     if (status != PE_OK)

@@ -432,12 +432,13 @@ static void filter_isotropic(isotropic_function *function, float width, const li
 
 /* Lights in the frame of one texel, as pe_filter_points takes them. */
 typedef struct turned {
-    _Alignas(64) float values[LIGHT_BLOCKS][7][PE_LIGHT_BLOCK];
+    _Alignas(64) float values[LIGHT_BLOCKS][PE_LIGHT_VALUES][PE_LIGHT_BLOCK];
     pe_light_block cones[LIGHT_BLOCKS];
 } turned;
 
 /* What is not above the horizon becomes a light straight above, without weight. */
-static void turn_block(const block *b, const pe_frame *frame, float (*values)[PE_LIGHT_BLOCK], int first)
+static void turn_block(const block *b, const pe_lobe *lobe, const pe_frame *frame, float (*values)[PE_LIGHT_BLOCK],
+                       int first)
 {
     for (int lane = 0; lane < LANES; lane++) {
         double world[3], local[3];
@@ -450,8 +451,10 @@ static void turn_block(const block *b, const pe_frame *frame, float (*values)[PE
                 values[c][at] = (float)local[c];
             for (int c = 0; c < 4; c++)
                 values[3 + c][at] = b->values[c][lane];
+            if (lobe->surface.weight == PE_WEIGHT_MICROFACET)
+                values[7][at] = (float)pe_ndf_lambda(&lobe->surface.ndf, local);
         } else {
-            for (int c = 0; c < 7; c++)
+            for (int c = 0; c < PE_LIGHT_VALUES; c++)
                 values[c][at] = c == 2;
         }
     }
@@ -472,8 +475,8 @@ static void add_turned(const pe_lobe *lobe, const double brush[3], const block *
         int first = (int)(k % BLOCKS_PER_LIGHT_BLOCK) * LANES;
 
         if (k < count)
-            turn_block(&blocks[index[k]], &frame, values, first);
-        for (int c = 0; c < 7 && k >= count; c++)
+            turn_block(&blocks[index[k]], lobe, &frame, values, first);
+        for (int c = 0; c < PE_LIGHT_VALUES && k >= count; c++)
             for (int lane = 0; lane < LANES; lane++)
                 values[c][first + lane] = c == 2;
     }

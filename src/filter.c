@@ -8,12 +8,15 @@
  *     Phong       D ~ (1 / cos^2) exp(-s log(1 + tan^2) / tan^2)
  *     table       D = (1 / cos^2)^2 P(h_x / h_z, h_y / h_z)
  *
- * (ndf.c), so a weight costs a division or two and one exponential, no square root and no trigonometry; the factor
- * 1 / (pi ax ay) cancels in the quotient. */
+ * (ndf.c), so a weight costs a division or two and one exponential, no square root and no trigonometry; the factor 1 /
+ * (pi ax ay) cancels in the quotient.  PE_WEIGHT_MICROFACET adds G2 = 1 / (1 + Lambda(o) + Lambda(w)) of
+ * height-correlated masking and shadowing [Heitz], with Lambda worked out once for each light and viewer, and F
+ * (lobe.c). */
 #include "filter.h"
 
 #include "lanes.h"
 #include "status.h"
+#include "surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,7 +100,7 @@ pe_status pe_cloud_from_env(const pe_env *env, pe_cloud *cloud, pe_error *error)
 
 /* ---- lights of a hemisphere ---- */
 
-enum { X, Y, Z, WEIGHT, RED, GREEN, BLUE, VALUES };
+enum { X, Y, Z, WEIGHT, RED, GREEN, BLUE, LAMBDA, VALUES = PE_LIGHT_VALUES };
 
 pe_status pe_lights_allocate(const pe_cloud *cloud, pe_lights *lights, pe_error *error)
 {
@@ -157,6 +160,7 @@ static void set_cone(const pe_lights *lights, size_t block, size_t used, double 
 
 /* Lights being filled: `used` of them in the block after the last whole one. */
 typedef struct filling {
+    const pe_lobe *lobe;
     const pe_frame *frame;
     double lobe_reach;
     pe_lights *lights;
@@ -179,6 +183,8 @@ static void add_light(filling *f, const double world[3], float weight_sr, const 
         values[(RED + c) * PE_LIGHT_BLOCK] = color[c];
     }
     values[WEIGHT * PE_LIGHT_BLOCK] = weight_sr;
+    if (f->lobe->surface.weight == PE_WEIGHT_MICROFACET)
+        values[LAMBDA * PE_LIGHT_BLOCK] = (float)pe_ndf_lambda(&f->lobe->surface.ndf, local);
     if (++f->used == PE_LIGHT_BLOCK) {
         set_cone(f->lights, f->lights->blocks++, f->used, f->lobe_reach);
         f->used = 0;
@@ -216,9 +222,8 @@ static void add_upper_part(filling *f, const pe_cloud *cloud, const pe_rect *are
 void pe_lights_fill(const pe_cloud *cloud, const pe_lobe *lobe, const pe_frame *frame, double lobe_reach,
                     pe_lights *lights)
 {
-    filling f = { frame, lobe_reach, lights, 0 };
+    filling f = { lobe, frame, lobe_reach, lights, 0 };
 
-    (void)lobe;
     lights->blocks = 0;
     for (size_t k = 0; k < cloud->count; k++) {
         const double world[3] = { cloud->x[k], cloud->y[k], cloud->z[k] };
@@ -358,10 +363,59 @@ INLINE void table(const pe_lobe *l, const half *h, floats *d)
     *d = (d00 + y * (d10 - d00)) * (cos2_inverse * cos2_inverse);
 }
 
-/* Adds one block's lights, seen from o, to the sums.  `kind` is a constant where this is inlined. */
-INLINE void add_block(pe_ndf_kind kind, const pe_lobe *l, const float *values, const float o[3], lane_sums *sums)
+INLINE void square_root(floats *v)
 {
-    floats weight = sums->weight, r = sums->r, g = sums->g, b = sums->b;
+    float lanes[LANES];
+
+    memcpy(lanes, v, sizeof lanes);
+    for (int k = 0; k < LANES; k++)
+        lanes[k] = sqrtf(lanes[k]);
+    memcpy(v, lanes, sizeof lanes);
+}
+
+/* F of a channel at x, as pe_lobe has it. */
+INLINE void reflectance(const float terms[PE_REFLECTANCE_TERMS], const floats *x, floats *f)
+{
+    *f = terms[PE_REFLECTANCE_TERMS - 1] + (floats){ 0 };
+    for (int k = PE_REFLECTANCE_TERMS - 2; k >= 0; k--)
+        *f = *f * *x + terms[k];
+}
+
+/* D to D G2, and a factor for each channel; o.h is half the length of the sum h. */
+INLINE void microfacet(const pe_lobe *l, const half *h, const float *lambda, float lambda_o, floats *d, floats f[3])
+{
+    floats c = h->x * h->x + h->y * h->y + h->z * h->z;
+
+    *d /= load(lambda) + (1.0f + lambda_o);
+    square_root(&c);
+    c = c * (1.0f + l->knee) / (0.5f * c + l->knee) - 1.0f;
+    for (int k = 0; k < 3; k++)
+        reflectance(l->reflectance[k], &c, &f[k]);
+}
+
+INLINE void density(pe_ndf_kind kind, const pe_lobe *l, const half *h, floats *d)
+{
+    switch (kind) {
+    case PE_NDF_BECKMANN:
+        beckmann(l, h, d);
+        break;
+    case PE_NDF_GGX:
+        ggx(l, h, d);
+        break;
+    case PE_NDF_PHONG:
+        phong(l, h, d);
+        break;
+    case PE_NDF_TABLE:
+        table(l, h, d);
+        break;
+    }
+}
+
+/* Adds one block's lights, seen from o, to the sums.  `kind` and `weight` are constants where this is inlined. */
+INLINE void add_block(pe_ndf_kind kind, pe_weight weight, const pe_lobe *l, const float *values, const float o[3],
+                      float lambda_o, lane_sums *sums)
+{
+    lane_sums s = *sums;
 
     for (int k = 0; k < PE_LIGHT_BLOCK; k += LANES) {
         half h = {
@@ -369,28 +423,23 @@ INLINE void add_block(pe_ndf_kind kind, const pe_lobe *l, const float *values, c
             load(values + Y * PE_LIGHT_BLOCK + k) + o[1],
             load(values + Z * PE_LIGHT_BLOCK + k) + o[2],
         };
-        floats d;
+        floats d, f[3];
 
-        switch (kind) {
-        case PE_NDF_BECKMANN:
-            beckmann(l, &h, &d);
-            break;
-        case PE_NDF_GGX:
-            ggx(l, &h, &d);
-            break;
-        case PE_NDF_PHONG:
-            phong(l, &h, &d);
-            break;
-        case PE_NDF_TABLE:
-            table(l, &h, &d);
-            break;
+        density(kind, l, &h, &d);
+        if (weight == PE_WEIGHT_MICROFACET) {
+            microfacet(l, &h, values + LAMBDA * PE_LIGHT_BLOCK + k, lambda_o, &d, f);
+            s.weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
+            s.r += d * f[0] * load(values + RED * PE_LIGHT_BLOCK + k);
+            s.g += d * f[1] * load(values + GREEN * PE_LIGHT_BLOCK + k);
+            s.b += d * f[2] * load(values + BLUE * PE_LIGHT_BLOCK + k);
+        } else {
+            s.weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
+            s.r += d * load(values + RED * PE_LIGHT_BLOCK + k);
+            s.g += d * load(values + GREEN * PE_LIGHT_BLOCK + k);
+            s.b += d * load(values + BLUE * PE_LIGHT_BLOCK + k);
         }
-        weight += d * load(values + WEIGHT * PE_LIGHT_BLOCK + k);
-        r += d * load(values + RED * PE_LIGHT_BLOCK + k);
-        g += d * load(values + GREEN * PE_LIGHT_BLOCK + k);
-        b += d * load(values + BLUE * PE_LIGHT_BLOCK + k);
     }
-    *sums = (lane_sums){ weight, r, g, b };
+    *sums = s;
 }
 
 static void flush(lane_sums *lanes, double sums[4])
@@ -412,8 +461,8 @@ INLINE int matters(const pe_light_block *cone, const float o[3])
     return cone->axis[2] * o[2] - cone->axis[0] * o[0] - cone->axis[1] * o[1] >= cone->cos_reach;
 }
 
-INLINE void add_points(pe_ndf_kind kind, const pe_lobe *l, const pe_lights *lights, const float (*o)[3], size_t count,
-                       double (*sums)[4])
+INLINE void add_points(pe_ndf_kind kind, pe_weight weight, const pe_lobe *l, const pe_lights *lights,
+                       const float (*o)[3], const float *lambda_o, size_t count, double (*sums)[4])
 {
     lane_sums lanes[PE_FILTER_POINTS_MAX];
 
@@ -423,7 +472,7 @@ INLINE void add_points(pe_ndf_kind kind, const pe_lobe *l, const pe_lights *ligh
 
         for (size_t k = 0; k < count; k++)
             if (matters(&lights->cones[block], o[k]))
-                add_block(kind, l, values, o[k], &lanes[k]);
+                add_block(kind, weight, l, values, o[k], lambda_o[k], &lanes[k]);
         if (block % BLOCKS_PER_FLUSH == BLOCKS_PER_FLUSH - 1)
             for (size_t k = 0; k < count; k++)
                 flush(&lanes[k], sums[k]);
@@ -432,37 +481,44 @@ INLINE void add_points(pe_ndf_kind kind, const pe_lobe *l, const pe_lights *ligh
         flush(&lanes[k], sums[k]);
 }
 
-/* A loop for each NDF. */
-#define POINTS(name, kind) \
-    CLONES static void name(const pe_lobe *l, const pe_lights *lights, const float(*o)[3], size_t count, \
-                            double(*sums)[4]) \
+/* A loop for each NDF and weight. */
+typedef void points_function(const pe_lobe *l, const pe_lights *lights, const float (*o)[3], const float *lambda_o,
+                             size_t count, double (*sums)[4]);
+
+#define POINTS(name, kind, weight) \
+    CLONES static void name(const pe_lobe *l, const pe_lights *lights, const float(*o)[3], const float *lambda_o, \
+                            size_t count, double(*sums)[4]) \
     { \
-        add_points(kind, l, lights, o, count, sums); \
+        add_points(kind, weight, l, lights, o, lambda_o, count, sums); \
     }
 
-POINTS(beckmann_points, PE_NDF_BECKMANN)
-POINTS(ggx_points, PE_NDF_GGX)
-POINTS(phong_points, PE_NDF_PHONG)
-POINTS(table_points, PE_NDF_TABLE)
+POINTS(beckmann_ndf, PE_NDF_BECKMANN, PE_WEIGHT_NDF)
+POINTS(ggx_ndf, PE_NDF_GGX, PE_WEIGHT_NDF)
+POINTS(phong_ndf, PE_NDF_PHONG, PE_WEIGHT_NDF)
+POINTS(table_ndf, PE_NDF_TABLE, PE_WEIGHT_NDF)
+POINTS(beckmann_microfacet, PE_NDF_BECKMANN, PE_WEIGHT_MICROFACET)
+POINTS(ggx_microfacet, PE_NDF_GGX, PE_WEIGHT_MICROFACET)
+POINTS(table_microfacet, PE_NDF_TABLE, PE_WEIGHT_MICROFACET)
+
+/* By weight and kind; Phong has no masking, so pe_surface_check lets no microfacets of it pass. */
+static points_function *const points_functions[2][4] = {
+    { beckmann_ndf, ggx_ndf, phong_ndf, table_ndf },
+    { beckmann_microfacet, ggx_microfacet, phong_ndf, table_microfacet },
+};
 
 void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float (*o)[3], size_t count,
                       double (*sums)[4])
 {
-    memset(sums, 0, count * sizeof *sums);
-    switch (lobe->surface.ndf.kind) {
-    case PE_NDF_BECKMANN:
-        beckmann_points(lobe, lights, o, count, sums);
-        break;
-    case PE_NDF_GGX:
-        ggx_points(lobe, lights, o, count, sums);
-        break;
-    case PE_NDF_PHONG:
-        phong_points(lobe, lights, o, count, sums);
-        break;
-    case PE_NDF_TABLE:
-        table_points(lobe, lights, o, count, sums);
-        break;
+    const pe_surface *surface = &lobe->surface;
+    float lambda_o[PE_FILTER_POINTS_MAX] = { 0 };
+
+    for (size_t k = 0; k < count && surface->weight == PE_WEIGHT_MICROFACET; k++) {
+        const double viewer[3] = { (double)o[k][0], (double)o[k][1], (double)o[k][2] };
+
+        lambda_o[k] = (float)pe_ndf_lambda(&surface->ndf, viewer);
     }
+    memset(sums, 0, count * sizeof *sums);
+    points_functions[surface->weight][surface->ndf.kind](lobe, lights, o, lambda_o, count, sums);
 }
 
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
@@ -475,13 +531,26 @@ void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
     o[2] = (float)w[2];
 }
 
+/* What is left of the mirror's light where the lobe is a point: h = n. */
+static void reflect_in_mirror(const pe_lobe *lobe, double cosine, double rgb[3])
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] *= pe_reflectance(lobe->surface.eta[c], lobe->surface.k[c], cosine);
+}
+
 void pe_filter_radiance(const pe_lobe *lobe, const pe_env *env, const double sums[4], const double world[3],
                         const float o[3], double rgb[3])
 {
-    (void)lobe;
-    (void)o;
-    if (sums[0] > 0)
+    const double viewer[3] = { (double)o[0], (double)o[1], (double)o[2] };
+    int microfacet = lobe->surface.weight == PE_WEIGHT_MICROFACET;
+
+    if (sums[0] > 0) {
         pe_scale(1 / sums[0], sums + 1, rgb);
-    else
+    } else {
         pe_env_lookup(env, world, rgb);
+        if (microfacet)
+            reflect_in_mirror(lobe, viewer[2], rgb);
+    }
+    if (microfacet)
+        pe_scale(pe_lobe_albedo(lobe, viewer), rgb, rgb);
 }

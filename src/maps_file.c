@@ -3,8 +3,8 @@
  * Hemispheres: one part for each brush angle, "angle.00" and so on, with the hemispheres of all normals side by side,
  * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
  * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
- * :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight, :accuracy,
- * :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun :sun.00.direction and
+ * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
+ * :accuracy, :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun :sun.00.direction and
  * :sun.00.power. */
 #include "atlas.h"
 #include "exr.h"
@@ -18,11 +18,12 @@
 
 static const char *const method_names[] = { "", "hemispheres", "representative", "baseline" };
 static const char *const accuracy_names[] = { "auto", "exact", "fast" };
+static const char *const weight_names[] = { "ndf", "microfacet" };
 static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
-#define ATTRIBUTES 13
+#define ATTRIBUTES 16
 #define HEMISPHERE_ATTRIBUTES 5
 #define SUN_NAME_MAX 40
 
@@ -53,6 +54,9 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
     const pe_attribute all[ATTRIBUTES] = {
         integer("prefenv:version", PE_MAPS_FORMAT_VERSION),
         string("prefenv:method", method_names[info->method]),
+        string("prefenv:weight", weight_names[info->surface.weight]),
+        vector("prefenv:eta", info->surface.eta),
+        vector("prefenv:k", info->surface.k),
         string("prefenv:ndf", ndf_names[info->surface.ndf.kind]),
         string("prefenv:ndfName", info->ndf_name),
         number("prefenv:alphaX", info->surface.ndf.alpha_x),
@@ -352,11 +356,14 @@ static pe_status read_sun(const header *from, int k, pe_suns *suns)
 static pe_status read_info(const header *from, pe_maps_info *info)
 {
     pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
-    int method = 0, kind = 0, accuracy = 0;
+    int method = 0, weight = 0, kind = 0, accuracy = 0;
     pe_status status = check_version(from);
 
     *info = (pe_maps_info){ .format_version = PE_MAPS_FORMAT_VERSION };
     AND_THEN(get_choice(from, "prefenv:method", method_names, COUNT(method_names), &method))
+    AND_THEN(get_choice(from, "prefenv:weight", weight_names, COUNT(weight_names), &weight))
+    AND_THEN(get_vector(from, 0, "prefenv:eta", info->surface.eta))
+    AND_THEN(get_vector(from, 0, "prefenv:k", info->surface.k))
     AND_THEN(get_choice(from, "prefenv:ndf", ndf_names, COUNT(ndf_names), &kind))
     AND_THEN(get_number(from, "prefenv:alphaX", &info->surface.ndf.alpha_x))
     AND_THEN(get_number(from, "prefenv:alphaY", &info->surface.ndf.alpha_y))
@@ -369,6 +376,7 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     if (status != PE_OK)
         return status;
     info->method = (pe_method)method;
+    info->surface.weight = (pe_weight)weight;
     info->surface.ndf.kind = (pe_ndf_kind)kind;
     info->accuracy = (pe_accuracy)accuracy;
     pe_exr_get_attribute(from->file, 0, &source);

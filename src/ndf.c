@@ -37,13 +37,6 @@ pe_status pe_ndf_check(const pe_ndf *ndf, pe_error *error)
                    (int)ndf->kind);
 }
 
-pe_status pe_surface_check(const pe_surface *surface, pe_error *error)
-{
-    if (surface->weight != PE_WEIGHT_NDF)
-        return pe_fail(error, PE_ERROR_ARGUMENT, "weight: kind %d is not known; ndf is", (int)surface->weight);
-    return pe_ndf_check(&surface->ndf, error);
-}
-
 /* s of the slopes p, q. */
 static double stretched(const pe_ndf *ndf, double p, double q)
 {

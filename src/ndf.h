@@ -26,6 +26,10 @@ double pe_ndf_reach(const pe_ndf *ndf, double limit);
 /* The width of the finest feature of D along t and along b: of closed forms their alphas. */
 void pe_ndf_fineness(const pe_ndf *ndf, double width[2]);
 
+/* Smith's Lambda of a direction above the surface, unit, tangent frame: of the microfacets that face it 1 / (1 +
+ * Lambda) are seen.  Not of Phong: 0. */
+double pe_ndf_lambda(const pe_ndf *ndf, const double w[3]);
+
 /* ---- tables ---- */
 
 enum { PE_NDF_LIMITS = 64 };
@@ -39,6 +43,8 @@ struct pe_ndf_table {
     float *density;
     double *row_sums;            /* of height + 1: what the rows above each hold, of 1 in all */
     float *sums;                 /* likewise within each row, of width + 1 each */
+    double moments[3];           /* mean of p^2, p q and q^2 */
+    float *masking;              /* what ndf_masking.c keeps */
     double alpha[2];             /* sqrt 2 times the root mean square of the slopes */
     double fineness[2];          /* root of the integral of P^2 over that of its derivative squared */
     double reach[PE_NDF_LIMITS]; /* pe_ndf_reach for each whole limit */
@@ -46,5 +52,8 @@ struct pe_ndf_table {
 
 double pe_ndf_table_density(const pe_ndf_table *table, double p, double q);
 void pe_ndf_table_sample(const pe_ndf_table *table, double u1, double u2, double *p, double *q);
+
+/* Fills in `masking`; 0 if memory does not suffice. */
+int pe_ndf_table_mask(pe_ndf_table *table);
 
 #endif

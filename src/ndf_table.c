@@ -97,7 +97,7 @@ static double q_of(const pe_ndf_table *t, int y)
 /* The mean square of slopes and of the density's steps from sample to sample. */
 static void measure_widths(pe_ndf_table *t)
 {
-    double pp = 0, qq = 0, square = 0, steps[2] = { 0, 0 }, cell = t->p_step * t->q_step;
+    double pp = 0, pq = 0, qq = 0, square = 0, steps[2] = { 0, 0 }, cell = t->p_step * t->q_step;
 
     for (int y = 0; y <= t->height; y++)
         for (int x = 0; x <= t->width; x++) {
@@ -105,14 +105,18 @@ static void measure_widths(pe_ndf_table *t)
             double here = (double)d[0], right = (double)d[1] - here, down = (double)d[t->row] - here;
 
             pp += here * p_of(t, x - 1) * p_of(t, x - 1);
+            pq += here * p_of(t, x - 1) * q_of(t, y - 1);
             qq += here * q_of(t, y - 1) * q_of(t, y - 1);
             square += here * here;
             steps[0] += right * right;
             steps[1] += down * down;
         }
     /* a tent of half width w has the mean square w^2 / 6 */
-    t->alpha[0] = sqrt(2 * (pp * cell + t->p_step * t->p_step / 6));
-    t->alpha[1] = sqrt(2 * (qq * cell + t->q_step * t->q_step / 6));
+    t->moments[0] = pp * cell + t->p_step * t->p_step / 6;
+    t->moments[1] = pq * cell;
+    t->moments[2] = qq * cell + t->q_step * t->q_step / 6;
+    t->alpha[0] = sqrt(2 * t->moments[0]);
+    t->alpha[1] = sqrt(2 * t->moments[2]);
     t->fineness[0] = t->p_step * sqrt(square / steps[0]);
     t->fineness[1] = t->q_step * sqrt(square / steps[1]);
 }
@@ -185,6 +189,10 @@ static pe_status create(int width, int height, const double p_range[2], const do
     fill(t, density, sum);
     measure_widths(t);
     measure_reach(t);
+    if (!pe_ndf_table_mask(t)) {
+        pe_ndf_table_free(t);
+        return pe_fail_memory(error, "a table of slopes");
+    }
     *table = t;
     return PE_OK;
 }
@@ -201,6 +209,7 @@ void pe_ndf_table_free(pe_ndf_table *table)
         return;
     free(table->name);
     free(table->density);
+    free(table->masking);
     free(table->row_sums);
     free(table->sums);
     free(table);

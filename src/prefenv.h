@@ -178,7 +178,15 @@ typedef struct pe_surface {
     double eta[3], k[3];
 } pe_surface;
 
+#define PE_INDEX_MAX 15.0
+
+/* With PE_WEIGHT_MICROFACET: phong is refused; the size of eta + i k lies between 1 and PE_INDEX_MAX. */
 pe_status pe_surface_check(const pe_surface *surface, pe_error *error);
+
+/* The index of a metal, measured at 617, 549 and 451 nm, by its name; 0 if it is not known.  pe_material_name: the
+ * names, index 0 and on, NULL after the last. */
+int pe_material(const char *name, double eta[3], double k[3]);
+const char *pe_material_name(int index);
 
 /* ---- measured surfaces ----------------------------------------------------------------------------------------
  *

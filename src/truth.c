@@ -4,6 +4,7 @@
 #include "ndf.h"
 #include "prefenv.h"
 #include "sequence.h"
+#include "surface.h"
 #include "vector.h"
 
 #include <stdint.h>
@@ -12,12 +13,14 @@
 /* A surface point in the frame of its normal: the viewer o is unit and above the surface. */
 typedef struct view {
     pe_frame frame;
-    double o[3]; /* tangent coordinates */
+    double o[3];   /* tangent coordinates */
+    double lambda; /* of o, for PE_WEIGHT_MICROFACET */
 } view;
 
 static const double plus_y[3] = { 0, 1, 0 };
 
-static void make_view(const double direction[3], const double n[3], const double o[3], view *v)
+static void make_view(const pe_surface *surface, const double direction[3], const double n[3], const double o[3],
+                      view *v)
 {
     double unit_n[3], unit_o[3];
 
@@ -27,47 +30,62 @@ static void make_view(const double direction[3], const double n[3], const double
         pe_scale(-1, unit_n, unit_n);
     pe_frame_make(unit_n, pe_dot(direction, direction) > 0 ? direction : plus_y, &v->frame);
     pe_frame_coordinates(&v->frame, unit_o, v->o);
+    v->lambda = 0;
+    if (surface->weight == PE_WEIGHT_MICROFACET) {
+        v->o[2] = fmax(v->o[2], PE_HORIZON); /* seen from the horizon itself, Lambda is infinite */
+        v->lambda = pe_ndf_lambda(&surface->ndf, v->o);
+    }
 }
 
 /* What a mirror shows: where no texel has weight, the lobe is far narrower than they are. */
-static void mirror(const pe_env *env, const view *v, double rgb[3])
+static void mirror(const pe_env *env, const pe_surface *surface, const view *v, double rgb[3])
 {
     double r[3] = { -v->o[0], -v->o[1], v->o[2] }, world[3];
 
     pe_frame_direction(&v->frame, r, world);
     pe_env_lookup(env, world, rgb);
+    for (int c = 0; c < 3 && surface->weight == PE_WEIGHT_MICROFACET; c++)
+        rgb[c] *= pe_reflectance(surface->eta[c], surface->k[c], v->o[2]);
 }
 
-/* D(h), up to the factor that cancels, of the light w; both in tangent coordinates and above the surface. */
-static double lobe_weight(const pe_ndf *ndf, const double o[3], const double w[3])
+/* The weight of the light w, and its reflectance; both in tangent coordinates and above the surface.  D, up to the
+ * factor that cancels, and with PE_WEIGHT_MICROFACET times G2. */
+static double lobe_weight(const pe_surface *surface, const view *v, const double w[3], double reflectance[3])
 {
-    double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] };
+    double h[3] = { v->o[0] + w[0], v->o[1] + w[1], v->o[2] + w[2] }, d;
 
-    if (!(pe_ndf_exponent(ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
+    if (!(pe_ndf_exponent(&surface->ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
         return 0;
     pe_normalize(h, h);
-    return pe_ndf_evaluate(ndf, h);
+    d = pe_ndf_evaluate(&surface->ndf, h);
+    if (surface->weight == PE_WEIGHT_NDF || !(d > 0))
+        return d;
+    for (int c = 0; c < 3; c++)
+        reflectance[c] = pe_reflectance(surface->eta[c], surface->k[c], pe_dot(v->o, h));
+    return d / (1 + v->lambda + pe_ndf_lambda(&surface->ndf, w));
 }
 
 /* Adds one row of texels to sums: weight, red, green, blue. */
-static void add_row(const pe_env *env, const pe_ndf *ndf, const view *v, int y, double sums[4])
+static void add_row(const pe_env *env, const pe_surface *surface, const view *v, int y, double sums[4])
 {
     const float *texel = env->rgb + 3 * (size_t)y * (size_t)env->width;
 
     for (int x = 0; x < env->width; x++, texel += 3) {
-        double world[3], w[3], weight;
+        double world[3], w[3], weight, reflectance[3] = { 1, 1, 1 };
 
         pe_grid_direction(&env->grid, x, y, world);
         w[2] = pe_dot(v->frame.n, world);
         if (!(w[2] > PE_HORIZON))
             continue;
         pe_frame_coordinates(&v->frame, world, w);
-        weight = lobe_weight(ndf, v->o, w) * env->grid.solid_angle_sr[y];
+        weight = lobe_weight(surface, v, w, reflectance) * env->grid.solid_angle_sr[y];
         sums[0] += weight;
         for (int c = 0; c < 3; c++)
-            sums[c + 1] += weight * (double)texel[c];
+            sums[c + 1] += weight * reflectance[c] * (double)texel[c];
     }
 }
+
+#define ALBEDO_SIDE 256
 
 void pe_exact(const pe_env *env, const pe_surface *surface, const double direction[3], const double n[3],
               const double o[3], double rgb[3])
@@ -75,13 +93,15 @@ void pe_exact(const pe_env *env, const pe_surface *surface, const double directi
     double sums[4] = { 0 };
     view v;
 
-    make_view(direction, n, o, &v);
+    make_view(surface, direction, n, o, &v);
     for (int y = 0; y < env->height; y++)
-        add_row(env, &surface->ndf, &v, y, sums);
+        add_row(env, surface, &v, y, sums);
     if (sums[0] > 0)
         pe_scale(1 / sums[0], sums + 1, rgb);
     else
-        mirror(env, &v, rgb);
+        mirror(env, surface, &v, rgb);
+    if (surface->weight == PE_WEIGHT_MICROFACET)
+        pe_scale(pe_directional_albedo(&surface->ndf, v.o, ALBEDO_SIDE), rgb, rgb);
 }
 
 /* ---- Monte Carlo ---- */
@@ -121,10 +141,11 @@ static void view_offsets(const double n[3], const double o[3], double offsets[2]
 }
 
 /* A half vector drawn with density D cos(theta_h) sends the viewer's ray to w = reflect(o, h), with density
- * D cos(theta_h) / (4 o.h) per steradian of w; Eq. 4 weighs w by D, so the sample counts (o.h) / cos(theta_h). */
-static void add_sample(const pe_env *env, const view *v, const double h[3], double sums[4])
+ * D cos(theta_h) / (4 o.h) per steradian of w.  Eq. 4 weighs w by D, so the sample counts (o.h) / cos(theta_h); and
+ * microfacets reflect D G2 F / (4 cos(theta_o)), so it counts G2 F (o.h) / (cos(theta_o) cos(theta_h)). */
+static void add_sample(const pe_env *env, const pe_surface *surface, const view *v, const double h[3], double sums[4])
 {
-    double w[3], world[3], weight, o_h = pe_dot(v->o, h);
+    double w[3], world[3], weight, o_h = pe_dot(v->o, h), reflectance[3] = { 1, 1, 1 };
     const float *texel;
 
     if (!(o_h > 0))
@@ -135,9 +156,14 @@ static void add_sample(const pe_env *env, const view *v, const double h[3], doub
     pe_frame_direction(&v->frame, w, world);
     texel = pe_env_texel(env, world);
     weight = o_h / h[2];
+    if (surface->weight == PE_WEIGHT_MICROFACET) {
+        weight /= v->o[2] * (1 + v->lambda + pe_ndf_lambda(&surface->ndf, w));
+        for (int c = 0; c < 3; c++)
+            reflectance[c] = pe_reflectance(surface->eta[c], surface->k[c], o_h);
+    }
     sums[0] += weight;
     for (int c = 0; c < 3; c++)
-        sums[c + 1] += weight * (double)texel[c];
+        sums[c + 1] += weight * reflectance[c] * (double)texel[c];
 }
 
 /* Lattice points shifted by the view's offsets: evenly spread in a pixel, unrelated between pixels. */
@@ -147,17 +173,19 @@ void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double d
     double sums[4] = { 0 }, offsets[2];
     view v;
 
-    make_view(direction, n, o, &v);
+    make_view(surface, direction, n, o, &v);
     view_offsets(n, o, offsets);
     for (int k = 0; k < samples; k++) {
         double u[2], h[3];
 
         pe_lattice_point(k, offsets, u);
         pe_ndf_sample(&surface->ndf, u[0], u[1], h);
-        add_sample(env, &v, h, sums);
+        add_sample(env, surface, &v, h, sums);
     }
-    if (sums[0] > 0)
+    if (surface->weight == PE_WEIGHT_MICROFACET)
+        pe_scale(1.0 / samples, sums + 1, rgb);
+    else if (sums[0] > 0)
         pe_scale(1 / sums[0], sums + 1, rgb);
     else
-        mirror(env, &v, rgb);
+        mirror(env, surface, &v, rgb);
 }

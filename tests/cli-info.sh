@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 
 json=$("$PREFENV" info --json maps.exr)
 is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 2, method: "representative",
-    ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
+    weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0], ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
     normals: 42, frequency: 2, angles: 1, suns: 0, images: 21, width: 16, height: 8,
     source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0,
     lookup_error: 0}')" \

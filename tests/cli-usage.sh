@@ -55,12 +55,12 @@ options_of()
 }
 
 is "$(options_of bake)" \
-    "alpha angles direction error exact fast float help json method ndf normals output paper quality quiet size \
-threads " \
+    "alpha angles direction error exact fast float help ior json k material method ndf normals output paper quality \
+quiet size threads weight " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
-is "$(options_of exact)" "alpha direction help ndf quiet threads " "the options of exact"
+is "$(options_of exact)" "alpha direction help ior k material ndf quiet threads weight " "the options of exact"
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
 is "$(options_of ndf)" \
@@ -115,6 +115,13 @@ done <<'TABLE'
 --size 400x|width and height are wanted
 --size 1x200|--size 1x200: out of range: 2 to 8192
 --size 400x8193|out of range: 2 to 8192
+--material gold|--material, --ior and --k are for --weight microfacet
+--weight microfacet --material unobtainium|--material unobtainium: not known
+--weight microfacet --material golf|did you mean gold?
+--weight microfacet --material gold --k 1,1,1|exclude each other
+--weight microfacet --ior 0.1,2,2 --k 0.2,1,1|of red is no conductor
+--weight microfacet --ndf phong|does not go with ndf phong
+--weight best|not known; what there is: ndf, microfacet
 --ndf ggg|--ndf ggg: not known; did you mean ggx?
 --ndf gaussian|--ndf gaussian: not known; what there is: beckmann, ggx, phong, or a file
 --ndf ./no.ndf.exr|no.ndf.exr

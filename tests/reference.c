@@ -1,6 +1,7 @@
 /* reference.c - the naive truth, see reference.h. */
 #include "reference.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -97,6 +98,84 @@ void reference_reflection_of(int kind, const float *rgb, int width, int height, 
         }
     for (int c = 0; c < 3; c++)
         out[c] /= sum;
+}
+
+/* ---- microfacets ---- */
+
+double reference_reflectance(double eta, double k, double cosine)
+{
+    double complex index = eta + k * I, inside;
+    double s, p;
+
+    if (eta == 0 && k == 0)
+        return 1;
+    inside = csqrt(1 - (1 - cosine * cosine) / (index * index));
+    s = pow(cabs((cosine - index * inside) / (cosine + index * inside)), 2);
+    p = pow(cabs((index * cosine - inside) / (index * cosine + inside)), 2);
+    return (s + p) / 2;
+}
+
+/* Heitz 2014, Eq. 68 and 72, of a = 1 / (alpha_phi tan(theta)). */
+static double lambda(int kind, double alpha_x, double alpha_y, const double v[3], const double t[3], const double b[3],
+                     const double n[3])
+{
+    double theta = acos(fmin(dot(v, n), 1)), phi = atan2(dot(v, b), dot(v, t)), a;
+
+    if (theta < 1e-9)
+        return 0;
+    a = 1 / (hypot(alpha_x * cos(phi), alpha_y * sin(phi)) * tan(theta));
+    return kind == 0 ? (erf(a) - 1) / 2 + exp(-a * a) / (2 * a * sqrt(M_PI)) : (sqrt(1 + 1 / (a * a)) - 1) / 2;
+}
+
+double reference_microfacet(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3],
+                            const double w[3], const double t[3], const double b[3], const double n[3])
+{
+    double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, masking;
+
+    unit(h);
+    masking = 1 + lambda(kind, alpha_x, alpha_y, o, t, b, n) + lambda(kind, alpha_x, alpha_y, w, t, b, n);
+    return reference_density(kind, alpha_x, alpha_y, h, t, b, n) * reference_reflectance(eta, k, dot(o, h)) /
+           (4 * dot(o, n) * masking);
+}
+
+double reference_furnace(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3], int side)
+{
+    static const double t[3] = { 1, 0, 0 }, b[3] = { 0, 1, 0 }, n[3] = { 0, 0, 1 };
+    double sum = 0;
+
+    for (int i = 0; i < side; i++)
+        for (int j = 0; j < side; j++) {
+            double theta = M_PI / 2 * (i + 0.5) / side, phi = 2 * M_PI * (j + 0.5) / side;
+            double w[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
+
+            sum += sin(theta) * reference_microfacet(kind, alpha_x, alpha_y, eta, k, o, w, t, b, n);
+        }
+    return sum * M_PI / 2 / side * 2 * M_PI / side;
+}
+
+void reference_scattering(int kind, const float *rgb, int width, int height, double alpha_x, double alpha_y,
+                          const double eta[3], const double k[3], const double d[3], const double n[3],
+                          const double o[3], double out[3])
+{
+    double along = dot(d, n), t[3], b[3];
+
+    for (int c = 0; c < 3; c++) {
+        t[c] = d[c] - along * n[c];
+        out[c] = 0;
+    }
+    unit(t);
+    b[0] = n[1] * t[2] - n[2] * t[1];
+    b[1] = n[2] * t[0] - n[0] * t[2];
+    b[2] = n[0] * t[1] - n[1] * t[0];
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double w[3], theta, area = 2 * M_PI * M_PI / ((double)width * height);
+
+            reference_direction(width, height, x, y, w, &theta);
+            for (int c = 0; c < 3 && dot(w, n) > REFERENCE_HORIZON; c++)
+                out[c] += area * sin(theta) * (double)rgb[3 * (y * width + x) + c] *
+                          reference_microfacet(kind, alpha_x, alpha_y, eta[c], k[c], o, w, t, b, n);
+        }
 }
 
 /* ---- environments ---- */

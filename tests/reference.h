@@ -27,6 +27,21 @@ void reference_reflection(const float *rgb, int width, int height, double alpha_
 void reference_reflection_of(int kind, const float *rgb, int width, int height, double alpha_x, double alpha_y,
                              const double d[3], const double n[3], const double o[3], double out[3]);
 
+/* F of a conductor of index eta + i k, by complex arithmetic; 1 where both are 0. */
+double reference_reflectance(double eta, double k, double cosine);
+
+/* D G2 F / (4 o.n) of the lights w: height-correlated Smith masking of Beckmann (0) and GGX (1), all vectors unit. */
+double reference_microfacet(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3],
+                            const double w[3], const double t[3], const double b[3], const double n[3]);
+
+/* Its integral over the hemisphere, by the midpoint rule with side x side steps of the angles; o in the tangent frame. */
+double reference_furnace(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3], int side);
+
+/* Its sum over the texels in the hemisphere of n, for each channel with an index of its own. */
+void reference_scattering(int kind, const float *rgb, int width, int height, double alpha_x, double alpha_y,
+                          const double eta[3], const double k[3], const double d[3], const double n[3],
+                          const double o[3], double out[3]);
+
 /* ---- environments that hurt, and the means to make more; release with free() ---- */
 
 float *reference_constant(int width, int height, float value);

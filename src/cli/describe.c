@@ -30,6 +30,17 @@ void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
         snprintf(text + used, DESCRIBE_BYTES - (size_t)used, "; lookups %.2g %%", 100 * info->lookup_error);
 }
 
+static void describe_index(const pe_surface *surface)
+{
+    const double *eta = surface->eta, *k = surface->k;
+
+    printf("weight     microfacet\n");
+    if (eta[0] == 0 && k[0] == 0)
+        printf("index      none, all is reflected\n");
+    else
+        printf("index      %g + %g i, %g + %g i, %g + %g i\n", eta[0], k[0], eta[1], k[1], eta[2], k[2]);
+}
+
 void describe_maps(const pe_maps_info *info)
 {
     char accuracy[DESCRIBE_BYTES];
@@ -53,6 +64,8 @@ void describe_maps(const pe_maps_info *info)
         printf("alpha      %g\n", info->surface.ndf.alpha_x);
     else
         printf("alpha      %g along, %g across the brush\n", info->surface.ndf.alpha_x, info->surface.ndf.alpha_y);
+    if (info->surface.weight == PE_WEIGHT_MICROFACET)
+        describe_index(&info->surface);
     printf("direction  %g %g %g\n", info->direction[0], info->direction[1], info->direction[2]);
     printf("source     %s, %dx%d\n", *info->source_name ? info->source_name : "(no name)", info->source_width,
            info->source_height);
@@ -67,6 +80,9 @@ void describe_maps_json(json *out, const pe_maps_info *info)
 
     json_integer(out, "format_version", info->format_version);
     json_text(out, "method", method_name(info->method));
+    json_text(out, "weight", info->surface.weight == PE_WEIGHT_MICROFACET ? "microfacet" : "ndf");
+    json_numbers(out, "eta", info->surface.eta, 3);
+    json_numbers(out, "k", info->surface.k, 3);
     json_text(out, "ndf", ndf_name(&info->surface.ndf));
     json_text(out, "ndf_name", info->ndf_name);
     json_numbers(out, "alpha", alpha, 2);

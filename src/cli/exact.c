@@ -18,8 +18,11 @@ static const cli_operand operands[] = {
 };
 
 static const cli_option options[] = {
-    CLI_OPTION_NDF(exact_settings),     CLI_OPTION_ALPHA(exact_settings), CLI_OPTION_DIRECTION(exact_settings),
-    CLI_OPTION_THREADS(exact_settings), CLI_OPTION_QUIET(exact_settings), { .name = NULL },
+    CLI_OPTION_NDF(exact_settings),       CLI_OPTION_ALPHA(exact_settings),
+    CLI_OPTION_DIRECTION(exact_settings), CLI_OPTION_WEIGHT(exact_settings),
+    CLI_OPTION_MATERIAL(exact_settings),  CLI_OPTION_IOR(exact_settings),
+    CLI_OPTION_K(exact_settings),         CLI_OPTION_THREADS(exact_settings),
+    CLI_OPTION_QUIET(exact_settings),     { .name = NULL },
 };
 
 enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels do */

@@ -8,9 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OPTIONS_MAX 24
+#define OPTIONS_MAX 40
 #define LONG_VALUE 256 /* getopt_long's value of option i is LONG_VALUE + i; letters lie below */
 #define HELP_VALUE 'h'
+
+const cli_choice cli_weights[] = { { "ndf", PE_WEIGHT_NDF }, { "microfacet", PE_WEIGHT_MICROFACET }, { NULL, 0 } };
 
 typedef struct getopt_tables {
     struct option longs[OPTIONS_MAX + 2];

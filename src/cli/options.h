@@ -72,6 +72,8 @@ void cli_help(const cli_command *command);
 /* Prints `text` in lines of at most 79 columns, each but the first indented; the first starts at `column`. */
 void cli_wrap(const char *text, int column, int indent);
 
+extern const cli_choice cli_weights[];
+
 /* Rows that several tables share. */
 #define CLI_OPTION_THREADS(settings) \
     { \
@@ -97,6 +99,27 @@ void cli_wrap(const char *text, int column, int indent);
     { \
         "alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, surface.alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, NULL, 0, \
             "width of beckmann, ggx or phong; two numbers: along and across the brush direction. Default: 0.1" \
+    }
+#define CLI_OPTION_WEIGHT(settings) \
+    { \
+        "weight", 0, "NAME", CLI_CHOICE, offsetof(settings, surface.weight), 0, 0, cli_weights, "ndf", 0, \
+            "ndf: the mean of what the normal distribution mirrors; microfacet: what a metal reflects, with its " \
+            "colour, masking and shadowing" \
+    }
+#define CLI_OPTION_MATERIAL(settings) \
+    { \
+        "material", 0, "METAL", CLI_TEXT, offsetof(settings, surface.material), 0, 0, NULL, NULL, 0, \
+            "for microfacet: aluminium, chromium, copper, gold, iron, nickel, palladium, silver or titanium. " \
+            "Default: reflects all" \
+    }
+#define CLI_OPTION_IOR(settings) \
+    { \
+        "ior", 0, "R,G,B", CLI_VECTOR, offsetof(settings, surface.eta), 0, 0, NULL, NULL, 0, \
+            "or the real part of its index of refraction, for red, green and blue" \
+    }
+#define CLI_OPTION_K(settings) \
+    { \
+        "k", 0, "R,G,B", CLI_VECTOR, offsetof(settings, surface.k), 0, 0, NULL, NULL, 0, "and the imaginary part" \
     }
 #define CLI_OPTION_DIRECTION(settings) \
     { \

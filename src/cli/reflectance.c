@@ -1,4 +1,4 @@
-/* reflectance.c - what the options say of the surface: --ndf, --alpha. */
+/* reflectance.c - what the options say of the surface: --ndf, --alpha, --weight, --material, --ior, --k. */
 #include "reflectance.h"
 #include "cli.h"
 
@@ -56,12 +56,54 @@ static int choose_ndf(const char *command, const cli_surface *asked, pe_ndf *ndf
     return CLI_FAILURE;
 }
 
+static int is_given(const double v[3])
+{
+    return v[0] != 0 || v[1] != 0 || v[2] != 0;
+}
+
+static int choose_material(const char *command, const char *name, pe_surface *surface)
+{
+    enum { NAMES_MAX = 32 };
+    const char *names[NAMES_MAX], *nearest;
+    int count = 0;
+
+    if (pe_material(name, surface->eta, surface->k))
+        return CLI_SUCCESS;
+    for (; count < NAMES_MAX && pe_material_name(count); count++)
+        names[count] = pe_material_name(count);
+    nearest = cli_nearest(name, names, (size_t)count);
+    if (nearest)
+        cli_error(command, "--material %s: not known; did you mean %s?", name, nearest);
+    else
+        cli_error(command, "--material %s: not known; see 'prefenv %s --help', or give --ior and --k", name, command);
+    return CLI_FAILURE;
+}
+
+static int choose_index(const char *command, const cli_surface *asked, pe_surface *surface)
+{
+    if (asked->weight != PE_WEIGHT_MICROFACET && (asked->material || is_given(asked->eta) || is_given(asked->k))) {
+        cli_error(command, "--material, --ior and --k are for --weight microfacet; give it, or leave them out");
+        return CLI_FAILURE;
+    }
+    if (asked->material && (is_given(asked->eta) || is_given(asked->k))) {
+        cli_error(command, "--material and --ior or --k exclude each other; give one of them");
+        return CLI_FAILURE;
+    }
+    if (asked->material)
+        return choose_material(command, asked->material, surface);
+    memcpy(surface->eta, asked->eta, sizeof surface->eta);
+    memcpy(surface->k, asked->k, sizeof surface->k);
+    return CLI_SUCCESS;
+}
+
 int cli_make_surface(const char *command, const cli_surface *asked, pe_surface *surface, pe_ndf_table **table)
 {
     pe_error error;
 
-    *surface = (pe_surface){ .weight = PE_WEIGHT_NDF };
+    *surface = (pe_surface){ .weight = (pe_weight)asked->weight };
     *table = NULL;
+    if (choose_index(command, asked, surface) != CLI_SUCCESS)
+        return CLI_FAILURE;
     if ((is_file(asked->ndf) ? read_table(command, asked, &surface->ndf, table)
                              : choose_ndf(command, asked, &surface->ndf)) != CLI_SUCCESS)
         return CLI_FAILURE;

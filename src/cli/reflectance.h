@@ -1,4 +1,4 @@
-/* reflectance.h - what the options say of the surface: --ndf, --alpha. */
+/* reflectance.h - what the options say of the surface: --ndf, --alpha, --weight, --material, --ior, --k. */
 #ifndef CLI_REFLECTANCE_H
 #define CLI_REFLECTANCE_H
 
@@ -8,6 +8,9 @@
 typedef struct cli_surface {
     const char *ndf;
     double alpha[2];
+    int weight;
+    const char *material;
+    double eta[3], k[3];
 } cli_surface;
 
 /* The surface asked for.  *table is what it was measured as, to be freed when the surface is no longer used, or NULL.
