@@ -21,9 +21,9 @@
 /* ---- options ---- */
 
 static const pe_machining_options presets[] = {
-    [PE_TURNED] = { .feed = 100, .radius = 400, .slope = 0, .roughness = 0.1, .length = { 40, 20 } },
-    [PE_MILLED] = { .feed = 128, .radius = 0, .slope = 0.12, .roughness = 0.15, .length = { 40, 20 } },
-    [PE_BLASTED] = { .feed = 0, .radius = 0, .slope = 0, .roughness = 1, .length = { 20, 20 } },
+    [PE_TURNED] = { .feed = 100, .radius = 400, .slope = 0, .roughness = 0.04, .length = { 16, 8 } },
+    [PE_MILLED] = { .feed = 128, .radius = 0, .slope = 0.12, .roughness = 0.06, .length = { 16, 8 } },
+    [PE_BLASTED] = { .feed = 0, .radius = 0, .slope = 0, .roughness = 0.4, .length = { 8, 8 } },
     [PE_BRUSHED] = { .feed = 0, .radius = 0, .slope = 0, .roughness = 0.6, .length = { 40, 8 } },
 };
 

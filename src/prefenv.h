@@ -228,9 +228,9 @@ typedef enum pe_machining {
 } pe_machining;
 
 /* The field repeats itself.  Lengths in one unit, such as micrometres.  A Gaussian surface of root mean square height
- * `roughness`, whose autocorrelation falls to 1/e over `length` along x and y, lies by itself (blasted, brushed) or over
- * the grooves (turned, milled); its slopes are Beckmann's, alpha = 2 roughness / length.  0 means the default of the
- * kind. */
+ * `roughness`, whose autocorrelation falls to 1/e over `length` along x and y, lies by itself (blasted, brushed) or
+ * over the grooves (turned, milled); its slopes are Beckmann's, alpha = 2 roughness / length.  0 means the default of
+ * the kind. */
 typedef struct pe_machining_options {
     pe_machining kind;
     int width, height; /* texels, PE_HEIGHTS_SIDE_MIN to 8192; 0: 1024 */
@@ -246,9 +246,11 @@ typedef struct pe_machining_options {
 pe_status pe_machining_complete(pe_machining_options *options, pe_error *error);
 pe_status pe_heights_machine(const pe_machining_options *options, pe_heights *heights, pe_error *error);
 
-/* Slopes of all texels that have them. */
+/* Slopes of all texels that have them, row by row; those of the black squares of a chess board of 8 x 8 over the
+ * picture, whose corner is black, come before the white ones': two measurements of one surface, which tell what of a
+ * density is the surface's and what is chance. */
 typedef struct pe_slopes {
-    size_t count;
+    size_t count, black;
     float *p, *q;   /* of each, `count` floats */
     size_t missing; /* texels that have none: not measured, at an edge, or facing down */
     double step;    /* by which the source rounds slopes; 0 if that is not to be seen */
@@ -290,15 +292,23 @@ void pe_slopes_turn(pe_slopes *slopes);
 /* P(p, q) in cells: cell (i, j) is centred at p = ((2i + 1) / width - 1) range[0], q likewise with j and range[1]. */
 typedef struct pe_slope_density {
     int width, height;
-    double range[2]; /* the cells reach from -range to range */
-    float *values;   /* per dp dq, rows of equal q; the integral over the cells is 1 */
-    double beyond;   /* the share of the area outside the range, which is left out */
+    double range[2];  /* the cells reach from -range to range */
+    float *values;    /* per dp dq, rows of equal q; the integral over the cells is 1 */
+    double beyond;    /* the share of the area outside the range, which is left out */
+    double smooth[2]; /* standard deviations of the Gaussian that it was blurred with, in slope */
 } pe_slope_density;
+
+typedef enum pe_smoothing {
+    PE_SMOOTHING_AUTO = 0, /* as much as lets either half of the slopes foretell the other best [Bowman] */
+    PE_SMOOTHING_NONE,
+    PE_SMOOTHING_GIVEN
+} pe_smoothing;
 
 /* A struct of zeros means the defaults. */
 typedef struct pe_density_options {
-    double range;  /* both axes; 0: on each, what holds all but 1/10000 of the area */
-    double smooth; /* standard deviation, in slope, of the Gaussian that the density is blurred with; 0: none */
+    double range; /* both axes; 0: on each, what holds all but 1/10000 of the area */
+    pe_smoothing smoothing;
+    double smooth; /* PE_SMOOTHING_GIVEN: the standard deviation, on both axes, above 0 and at most 1 */
 } pe_density_options;
 
 /* Cells are 1/64 of the range, but not below 0.0005 nor above 0.0025, and at most 1024 along an axis.  A slope counts

@@ -3,6 +3,7 @@
 #include "status.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #define MARGIN 3 /* of the seven-point formula */
@@ -32,6 +33,16 @@ static void add(pe_slopes *slopes, double p, double q)
         return;
     slopes->p[slopes->count] = (float)p;
     slopes->q[slopes->count++] = (float)q;
+}
+
+/* ---- the chess board ---- */
+
+#define SQUARES 8 /* along a side */
+
+/* So that either half holds some of every row and every column, whatever the grooves are. */
+static bool is_white(int x, int y, int width, int height)
+{
+    return (int)((long long)x * SQUARES / width + (long long)y * SQUARES / height) % 2;
 }
 
 /* ---- heights ---- */
@@ -64,6 +75,14 @@ static void add_texel(const pe_heights *heights, int x, int y, pe_slopes *slopes
             -seven_point(heights->values, column) / heights->pitch);
 }
 
+static void add_squares(const pe_heights *heights, int margin, bool white, pe_slopes *slopes)
+{
+    for (int y = margin; y < heights->height - margin; y++)
+        for (int x = margin; x < heights->width - margin; x++)
+            if (is_white(x, y, heights->width, heights->height) == white)
+                add_texel(heights, x, y, slopes);
+}
+
 static pe_status check_heights(const pe_heights *heights, pe_error *error)
 {
     if (heights->width < PE_HEIGHTS_SIDE_MIN || heights->height < PE_HEIGHTS_SIDE_MIN ||
@@ -91,9 +110,9 @@ pe_status pe_slopes_of_heights(const pe_heights *heights, pe_edges edges, pe_slo
         status = allocate((size_t)heights->width * (size_t)heights->height, &found, error);
     if (status != PE_OK)
         return status;
-    for (int y = margin; y < heights->height - margin; y++)
-        for (int x = margin; x < heights->width - margin; x++)
-            add_texel(heights, x, y, &found);
+    add_squares(heights, margin, false, &found);
+    found.black = found.count;
+    add_squares(heights, margin, true, &found);
     found.missing = (size_t)heights->width * (size_t)heights->height - found.count;
     found.noise = noise_of_step(heights->step / heights->pitch);
     if (found.count == 0) {
@@ -106,6 +125,20 @@ pe_status pe_slopes_of_heights(const pe_heights *heights, pe_edges edges, pe_slo
 
 /* ---- normals ---- */
 
+static void add_normals(const pe_image *image, double down, bool white, pe_slopes *slopes)
+{
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++) {
+            size_t k = (size_t)y * (size_t)image->width + (size_t)x;
+            const float *c = image->rgb + 3 * k;
+            double h[3] = { 2 * (double)c[0] - 1, down * (2 * (double)c[1] - 1), 2 * (double)c[2] - 1 };
+            bool faces_out = h[2] > 0 && !(image->alpha && image->alpha[k] <= 0.5f);
+
+            if (faces_out && is_white(x, y, image->width, image->height) == white)
+                add(slopes, h[0] / h[2], h[1] / h[2]);
+        }
+}
+
 pe_status pe_slopes_of_normals(const pe_image *image, const char *name, pe_green green, pe_slopes *slopes,
                                pe_error *error)
 {
@@ -116,13 +149,9 @@ pe_status pe_slopes_of_normals(const pe_image *image, const char *name, pe_green
 
     if (status != PE_OK)
         return status;
-    for (size_t k = 0; k < count; k++) {
-        const float *c = image->rgb + 3 * k;
-        double h[3] = { 2 * (double)c[0] - 1, down * (2 * (double)c[1] - 1), 2 * (double)c[2] - 1 };
-
-        if (h[2] > 0 && !(image->alpha && image->alpha[k] <= 0.5f))
-            add(&found, h[0] / h[2], h[1] / h[2]);
-    }
+    add_normals(image, down, false, &found);
+    found.black = found.count;
+    add_normals(image, down, true, &found);
     found.missing = count - found.count;
     found.step = 2 * pe_image_step(image);
     found.noise = found.step / sqrt(12);

@@ -64,7 +64,7 @@ is "$(options_of exact)" "alpha direction help ior k material ndf quiet threads 
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
 is "$(options_of ndf)" \
-    "height help json keep-tilt normal-map output pitch quiet range scale smooth turn wrap " "the options of ndf"
+    "height help json keep-tilt normal-map output pitch quiet range raw scale smooth turn wrap " "the options of ndf"
 is "$(options_of surface)" "feed help length output pitch quiet radius roughness seed size slope " \
     "the options of surface"
 

@@ -170,9 +170,9 @@ typedef struct measured {
 
 /* Rough enough along the lay for the environment's texels to resolve; the maps are small, for the test's time. */
 static const measured surfaces[] = {
-    { "turned", { .kind = PE_TURNED, .feed = 64, .radius = 160, .roughness = 0.4 }, 0.008, 0.03, 0.03 },
-    { "milled", { .kind = PE_MILLED, .feed = 64, .slope = 0.25, .roughness = 0.4 }, 0.008, 0.09, 0.08 },
-    { "blasted", { .kind = PE_BLASTED, .roughness = 2 }, 0.003, 0.02, 0 },
+    { "turned", { .kind = PE_TURNED, .feed = 64, .radius = 160, .roughness = 0.16 }, 0.008, 0.03, 0.03 },
+    { "milled", { .kind = PE_MILLED, .feed = 64, .slope = 0.25, .roughness = 0.16 }, 0.008, 0.09, 0.08 },
+    { "blasted", { .kind = PE_BLASTED, .roughness = 0.8 }, 0.003, 0.02, 0 },
     { "brushed", { .kind = PE_BRUSHED }, 0.004, 0.03, 0 },
 };
 #define SURFACES (int)(sizeof surfaces / sizeof *surfaces)

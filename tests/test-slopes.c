@@ -1,5 +1,5 @@
-/* test-slopes.c - claim: slopes are the surface's own, their density is that of the closed form where a machined surface
- * has one, and what was not measured, lies beyond the range or was rounded away is told. */
+/* test-slopes.c - claim: slopes are the surface's own, their density is that of the closed form where a machined
+ * surface has one, and what was not measured, lies beyond the range or was rounded away is told. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -59,29 +59,41 @@ static void test_plane(void)
     pe_heights_free(&heights);
 }
 
-/* Two waves: the slopes are known, and the formula is of the sixth order. */
+/* Two waves: the slopes are known, and the formula is of the sixth order.  They come in the order that prefenv.h says:
+ * black squares first. */
+static void note_errors(const pe_slopes *slopes, int side, int white, size_t *next, double worst[2])
+{
+    double turn = 2 * M_PI / side, pitch = 10.0 / side;
+
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            double p = -0.3 * 3 * turn * cos(3 * turn * x) / pitch, q = 0.2 * 2 * turn * sin(2 * turn * y) / pitch;
+
+            if ((x * 8 / side + y * 8 / side) % 2 != white)
+                continue;
+            worst[0] = fmax(worst[0], fabs((double)slopes->p[*next] - p));
+            worst[1] = fmax(worst[1], fabs((double)slopes->q[(*next)++] - q));
+        }
+}
+
 static double wave_error(int side, double *q_error)
 {
     pe_heights heights = make_heights(side, side, 10.0 / side);
-    double turn = 2 * M_PI / side, worst = 0;
+    double turn = 2 * M_PI / side, worst[2] = { 0, 0 };
     pe_slopes slopes;
+    size_t next = 0;
 
     for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++)
             heights.values[side * y + x] = (float)(0.3 * sin(3 * turn * x) + 0.2 * cos(2 * turn * y));
     slopes = slopes_of(&heights, PE_EDGES_WRAP);
-    *q_error = 0;
-    for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            double p = -0.3 * 3 * turn * cos(3 * turn * x) / heights.pitch;
-            double q = 0.2 * 2 * turn * sin(2 * turn * y) / heights.pitch;
-
-            worst = fmax(worst, fabs((double)slopes.p[side * y + x] - p));
-            *q_error = fmax(*q_error, fabs((double)slopes.q[side * y + x] - q));
-        }
+    note_errors(&slopes, side, 0, &next, worst);
+    ok(next == slopes.black, "%d x %d: the black squares come first", side, side);
+    note_errors(&slopes, side, 1, &next, worst);
     pe_slopes_free(&slopes);
     pe_heights_free(&heights);
-    return worst;
+    *q_error = worst[1];
+    return worst[0];
 }
 
 static void test_waves(void)
@@ -125,7 +137,7 @@ static void test_normals(void)
 
 static pe_slope_density density_of(const pe_slopes *slopes, double range, double smooth)
 {
-    pe_density_options options = { range, smooth };
+    pe_density_options options = { range, smooth > 0 ? PE_SMOOTHING_GIVEN : PE_SMOOTHING_NONE, smooth };
     pe_slope_density density = { 0 };
     pe_error error = { PE_OK, "" };
     pe_status status = pe_slopes_density(slopes, &options, &density, &error);
@@ -303,6 +315,56 @@ static void test_machined(const machined *m)
     pe_heights_free(&heights);
 }
 
+/* Root of the integral of the squared difference from Beckmann's density, over that of Beckmann's density squared. */
+static double error_of_density(const pe_slope_density *d, double alpha)
+{
+    double differences = 0, squares = 0;
+
+    for (int j = 0; j < d->height; j++)
+        for (int i = 0; i < d->width; i++) {
+            double p = ((2 * i + 1.0) / d->width - 1) * d->range[0] / alpha;
+            double q = ((2 * j + 1.0) / d->height - 1) * d->range[1] / alpha;
+            double wanted = exp(-p * p - q * q) / (M_PI * alpha * alpha);
+
+            differences += pow((double)d->values[(size_t)j * (size_t)d->width + (size_t)i] - wanted, 2);
+            squares += wanted * wanted;
+        }
+    return sqrt(differences / squares);
+}
+
+static double error_smoothed(const pe_slopes *slopes, pe_smoothing smoothing, double smooth, double *chosen)
+{
+    pe_density_options options = { 0.4, smoothing, smooth };
+    pe_slope_density d;
+    double error;
+
+    need(pe_slopes_density(slopes, &options, &d, NULL) == PE_OK, "a density cannot be made");
+    error = error_of_density(&d, 0.1);
+    *chosen = d.smooth[0];
+    pe_slope_density_free(&d);
+    return error;
+}
+
+/* The smoothing that is found is about the best one: neither much more nor much less does better. */
+static void test_choice(void)
+{
+    pe_machining_options o = { .kind = PE_BLASTED, .width = 512, .height = 512, .seed = 11 };
+    double chosen, given, raw, found, least = INFINITY;
+    pe_heights heights;
+    pe_slopes slopes;
+
+    need(pe_heights_machine(&o, &heights, NULL) == PE_OK, "a surface cannot be made");
+    slopes = slopes_of(&heights, PE_EDGES_WRAP);
+    raw = error_smoothed(&slopes, PE_SMOOTHING_NONE, 0, &given);
+    found = error_smoothed(&slopes, PE_SMOOTHING_AUTO, 0, &chosen);
+    for (int k = 0; k < 18; k++) /* up to 0.044 */
+        least = fmin(least, error_smoothed(&slopes, PE_SMOOTHING_GIVEN, 0.001 * pow(1.25, k), &given));
+    ok(found < 0.5 * raw, "smoothing by %.4f leaves an error of %.3f, of %.3f without", chosen, found, raw);
+    ok(found < 1.2 * least, "the best smoothing would leave %.3f", least);
+    pe_slopes_free(&slopes);
+    pe_heights_free(&heights);
+}
+
 static const machined surfaces[] = {
     { "turned", { .kind = PE_TURNED }, turned_cdf, 0.01 },
     { "turned, odd feed",
@@ -412,6 +474,7 @@ int main(void)
     test_steps();
     for (int k = 0; k < SURFACES; k++)
         test_machined(&surfaces[k]);
+    test_choice();
     test_options();
     test_files();
     return done_testing();

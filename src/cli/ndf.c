@@ -19,7 +19,7 @@ typedef struct ndf_settings {
     int green; /* a pe_green, or HEIGHTS */
     int wrap, turn, keep_tilt;
     double range, smooth;
-    int json, quiet;
+    int raw, json, quiet;
 } ndf_settings;
 
 static const cli_operand operands[] = {
@@ -53,8 +53,10 @@ static const cli_option options[] = {
       "do not level: leave the mean slope in" },
     { "range", 0, "SLOPE", CLI_NUMBER, offsetof(ndf_settings, range), 0.004, 100, NULL, NULL, 0,
       "how far the table reaches. Default: as far as all but 0.01 % of the area, along each axis" },
-    { "smooth", 0, "SLOPE", CLI_NUMBER, offsetof(ndf_settings, smooth), 0, 1, NULL, "0", 0,
-      "blur the distribution with a Gaussian of this standard deviation" },
+    { "smooth", 0, "SLOPE", CLI_NUMBER, offsetof(ndf_settings, smooth), 1e-6, 1, NULL, NULL, 0,
+      "blur the distribution with a Gaussian of this standard deviation. Default: as much as lets one half of the "
+      "surface foretell the other best" },
+    { "raw", 0, NULL, CLI_SWITCH, offsetof(ndf_settings, raw), 0, 0, NULL, NULL, 0, "do not blur it" },
     CLI_OPTION_JSON(ndf_settings),
     CLI_OPTION_QUIET(ndf_settings),
     { .name = NULL },
@@ -66,7 +68,7 @@ typedef struct findings {
     double step, noise;
     pe_slope_statistics statistics;
     int width, height;
-    double range[2], beyond;
+    double range[2], smooth[2], beyond;
 } findings;
 
 static int check_settings(const ndf_settings *s)
@@ -81,6 +83,8 @@ static int check_settings(const ndf_settings *s)
     else if ((s->height > 0) != (s->pitch > 0))
         cli_error("ndf", "--height and --pitch make a scale together; --%s is missing",
                   s->pitch > 0 ? "height" : "pitch");
+    else if (s->raw && s->smooth > 0)
+        cli_error("ndf", "--raw and --smooth exclude each other; give one of them");
     else
         return cli_check_output("ndf", s->output, inputs);
     return CLI_FAILURE;
@@ -130,7 +134,13 @@ static pe_status write_table(const ndf_settings *s, const pe_slope_density *d, p
 
 static pe_status measure_slopes(const ndf_settings *s, pe_slopes *slopes, findings *found, pe_error *error)
 {
-    const pe_density_options how = { s->range, s->smooth };
+    const pe_density_options how = {
+        .range = s->range,
+        .smoothing = s->raw          ? PE_SMOOTHING_NONE
+                     : s->smooth > 0 ? PE_SMOOTHING_GIVEN
+                                     : PE_SMOOTHING_AUTO,
+        .smooth = s->smooth,
+    };
     pe_slope_density density;
     pe_status status;
 
@@ -149,8 +159,10 @@ static pe_status measure_slopes(const ndf_settings *s, pe_slopes *slopes, findin
     found->width = density.width;
     found->height = density.height;
     found->beyond = density.beyond;
-    for (int axis = 0; axis < 2; axis++)
+    for (int axis = 0; axis < 2; axis++) {
         found->range[axis] = density.range[axis];
+        found->smooth[axis] = density.smooth[axis];
+    }
     status = write_table(s, &density, error);
     pe_slope_density_free(&density);
     return status;
@@ -180,13 +192,15 @@ static void print_text(const ndf_settings *s, const findings *f)
     const pe_slope_statistics *m = &f->statistics;
 
     printf("slopes     %zu, and %zu texels without\n", f->count, f->missing);
-    printf("tilt       %.4g along the brush, %.4g across: %.3g degrees, %s\n", m->mean[0], m->mean[1],
+    printf("tilt       %.4f along the brush, %.4f across: %.2f degrees, %s\n", m->mean[0], m->mean[1],
            degrees(hypot(m->mean[0], m->mean[1])), s->keep_tilt ? "left in" : "taken off");
     printf("rms slope  %.4g along the brush, %.4g across, %.4g in all (Sdq)\n", m->rms[0], m->rms[1],
            hypot(m->rms[0], m->rms[1]));
     printf("alpha      %.4g along the brush, %.4g across: Beckmann's of these rms slopes\n", m->alpha[0], m->alpha[1]);
     printf("steepest   %.4g, %.3g degrees\n", m->steepest, degrees(m->steepest));
     printf("table      %dx%d cells to slopes of %.4g, %.4g\n", f->width, f->height, f->range[0], f->range[1]);
+    printf("smoothed   by %.2g, %.2g%s\n", f->smooth[0], f->smooth[1],
+           s->raw || s->smooth > 0 ? "" : ", as found best");
     printf("beyond     %.2g %% of the area\n", 100 * f->beyond);
 }
 
@@ -208,6 +222,7 @@ static void print_json(const ndf_settings *s, const findings *f)
     json_integer(&out, "width", f->width);
     json_integer(&out, "height", f->height);
     json_numbers(&out, "range", f->range, 2);
+    json_numbers(&out, "smooth", f->smooth, 2);
     json_number(&out, "beyond", f->beyond);
     json_close(&out);
 }
