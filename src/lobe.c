@@ -28,9 +28,9 @@ static void set_slopes(pe_lobe *lobe)
 /* ---- reflectance ---- */
 
 /* F has a pole at the cosine -1 / (eta + i k) or near, too close to [0, 1] for a polynomial of the cosine.  The place
- * y = c (1 + d) / (c + d), with d of that distance, sends it away: a polynomial of degree 11 through the Chebyshev
- * points of y is within 1e-4 of F for conductors of all kinds, and 1e-5 for the metals of pe_material. */
-#define KNEE 1.5
+ * y = c (1 + d) / (c + d), with d somewhat beyond that distance, sends it away: a polynomial of degree 7 through the
+ * Chebyshev points of y is within 2e-4 of F for the metals of pe_material, and 1e-3 for conductors of all kinds. */
+#define KNEE 1.7
 
 static double choose_knee(const pe_surface *surface)
 {
@@ -110,8 +110,9 @@ static double azimuth_step(const pe_lobe *lobe)
 static void fill_albedo(size_t index, void *data)
 {
     const pe_lobe *lobe = data;
+    size_t azimuth_number = index / (PLACES + 1);
     double place = fmax((double)(index % (PLACES + 1)) / PLACES, 1e-4), tau = 1 / place - 1, width[2], o[3];
-    double azimuth = (double)(index / (PLACES + 1)) * azimuth_step(lobe);
+    double azimuth = (double)azimuth_number * azimuth_step(lobe);
 
     widths_of(&lobe->surface.ndf, width);
     o[0] = tau * cos(azimuth) / fmax(width[0], 1e-6);

@@ -5,7 +5,7 @@
 #include "ndf.h"
 #include "prefenv.h"
 
-#define PE_REFLECTANCE_TERMS 12
+#define PE_REFLECTANCE_TERMS 8
 
 typedef struct pe_lobe {
     pe_surface surface;

@@ -4,8 +4,8 @@
  * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
  * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
- * :accuracy, :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun :sun.00.direction and
- * :sun.00.power. */
+ * :accuracy, :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun
+ * :sun.00.direction and :sun.00.power. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"

@@ -123,20 +123,30 @@ static double albedo_of(const pe_ndf *ndf, const double o[3], double lambda_o, c
     return o_h / (o[2] * h[2] * (1 + lambda_o + pe_ndf_lambda(ndf, w)));
 }
 
-/* A product rule over the unit square that pe_ndf_sample fills slopes from.  u = 1 - (1 - t)^3 draws out the tails of
- * closed forms; those of a table end. */
+/* A product rule over the unit square that pe_ndf_sample fills slopes from.  Its u is a cubic of evenly spaced t, which
+ * draws out the tails: of closed forms those of the radius, of tables both ends of both slopes. */
+static double stretch(const pe_ndf *ndf, double t, double *u)
+{
+    if (ndf->kind == PE_NDF_TABLE) {
+        *u = t * t * (3 - 2 * t);
+        return 6 * t * (1 - t);
+    }
+    *u = 1 - (1 - t) * (1 - t) * (1 - t);
+    return 3 * (1 - t) * (1 - t);
+}
+
 double pe_directional_albedo(const pe_ndf *ndf, const double o[3], int side)
 {
     double lambda_o = pe_ndf_lambda(ndf, o), sum = 0, weights = 0;
 
     for (int k = 0; k < side * side; k++) {
-        double t = (k % side + 0.5) / side, u = ((double)(k / side) + 0.5) / side, weight = 1, h[3];
+        int row = k / side;
+        double t = (k % side + 0.5) / side, u1, u2 = (row + 0.5) / side, h[3];
+        double weight = stretch(ndf, t, &u1);
 
-        if (ndf->kind != PE_NDF_TABLE) {
-            weight = 3 * (1 - t) * (1 - t);
-            t = 1 - (1 - t) * (1 - t) * (1 - t);
-        }
-        pe_ndf_sample(ndf, t, u, h);
+        if (ndf->kind == PE_NDF_TABLE)
+            weight *= stretch(ndf, u2, &u2);
+        pe_ndf_sample(ndf, u1, u2, h);
         sum += weight * albedo_of(ndf, o, lambda_o, h);
         weights += weight;
     }

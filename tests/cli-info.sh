@@ -14,7 +14,8 @@ trap 'rm -rf "$work"' EXIT
 
 json=$("$PREFENV" info --json maps.exr)
 is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", format_version: 2, method: "representative",
-    weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0], ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
+    weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0],
+    ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
     normals: 42, frequency: 2, angles: 1, suns: 0, images: 21, width: 16, height: 8,
     source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0,
     lookup_error: 0}')" \
@@ -43,6 +44,15 @@ like "$text" '^normals    42 \(frequency 2\), each with a picture of its hemisph
 like "$text" '^images     42 of 12x10$' "and the images"
 like "$text" '^accuracy   exact; lookups [0-9.e-]+ %$' "and the errors"
 like "$(oiiotool --info hemispheres.exr)" '72 x +70' "an atlas of six by seven"
+
+"$PREFENV" bake 'a "city".hdr' -o gold.exr --ndf ggx --weight microfacet --material gold --normals 12 --size 12x10 \
+    --quiet || bail_out "bake does not work"
+text=$("$PREFENV" info gold.exr)
+like "$text" '^ndf        ggx$' "gold: its distribution of normals"
+like "$text" '^weight     microfacet$' "its weight"
+like "$text" '^index      0.21 \+ 3.272 i, 0.43 \+ 2.455 i, 1.38 \+ 1.914 i$' "and its index"
+is "$("$PREFENV" info --json gold.exr | jq -c '[.weight, .eta, .k]')" \
+    '["microfacet",[0.21,0.43,1.38],[3.272,2.455,1.914]]' "and in JSON"
 
 # A file that is no maps file, each way one can be.
 oiiotool maps.exr --subimage 0 --eraseattrib '.*' -o plain.exr

@@ -34,7 +34,8 @@ double reference_reflectance(double eta, double k, double cosine);
 double reference_microfacet(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3],
                             const double w[3], const double t[3], const double b[3], const double n[3]);
 
-/* Its integral over the hemisphere, by the midpoint rule with side x side steps of the angles; o in the tangent frame. */
+/* Its integral over the hemisphere, by the midpoint rule with side x side steps of the angles; o in the tangent
+ * frame. */
 double reference_furnace(int kind, double alpha_x, double alpha_y, double eta, double k, const double o[3], int side);
 
 /* Its sum over the texels in the hemisphere of n, for each channel with an index of its own. */

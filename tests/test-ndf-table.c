@@ -27,7 +27,8 @@ static pe_ndf_table *make_beckmann(double alpha_x, double alpha_y, int cells)
     pe_ndf_table *table;
 
     for (int k = 0; k < cells * cells; k++) {
-        double p = 12 * (k % cells + 0.5) / cells - 6, q = 12 * ((int)(k / cells) + 0.5) / cells - 6;
+        int row = k / cells;
+        double p = 12 * (k % cells + 0.5) / cells - 6, q = 12 * (row + 0.5) / cells - 6;
 
         density[k] = (float)exp(-p * p - q * q);
     }
