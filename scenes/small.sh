@@ -8,11 +8,11 @@
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
 small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f ten_lines cylinder spheres fig4 fig6
-    readme view'
+    readme surfaces view'
 
 small_prepare()
 {
-    local courtyard=$PREFENV_DATA/hdri/courtyard.exr studio=$PREFENV_DATA/hdri/studio.exr alpha
+    local courtyard=$PREFENV_DATA/hdri/courtyard.exr studio=$PREFENV_DATA/hdri/studio.exr alpha kind
 
     for file in "$courtyard" "$studio"; do
         [ -f "$file" ] || die "$file does not exist: run ./bootstrap, which fetches it"
@@ -27,6 +27,11 @@ small_prepare()
     small_bake studio.exr studio.pe.exr --method representative --size 64x32 --normals 12
     for alpha in 0.02 0.05 0.10 0.20 0.40; do
         small_bake courtyard.exr alpha-$alpha.pe.exr --alpha $alpha --method representative --size 64x32 --normals 12
+    done
+    . "$srcdir/scenes/machined.sh"
+    for kind in $machined_kinds; do
+        machined_measure $kind --size 256x256
+        small_bake studio.exr $kind.pe.exr --ndf $kind.ndf.exr --method representative --size 64x32 --normals 12
     done
     cat >fig6_numbers.inc <<'END'
 #declare Reference_Samples = 1;
@@ -56,6 +61,7 @@ small_render()
         fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         fig6) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         readme) size='+W164 +H144 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        surfaces) size='+W235 +H235 +A0.1 +AM2 +R2 -J' ;;
         view)
             # shellcheck disable=SC2086 # the options are a list of words
             render picture.log "$srcdir/scenes/fig6f.pov" picture.exr $size +L.
