@@ -5,6 +5,7 @@
 #include "filter.h"
 #include "ndf.h"
 #include "status.h"
+#include "surface.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,7 +51,7 @@ static double rank(const pe_env *env, ranking *r)
 
 int pe_suns_possible(const pe_surface *surface)
 {
-    return surface->weight == PE_WEIGHT_NDF && surface->ndf.kind != PE_NDF_TABLE;
+    return surface->ndf.kind != PE_NDF_TABLE; /* a file of maps does not keep the table */
 }
 
 /* The brightest must add SHARE_MIN of the mean radiance in the middle of its highlight; the first texel left behind
@@ -121,8 +122,41 @@ static double density(const pe_ndf *ndf, const pe_frame *frame, const double h[3
     return pe_ndf_evaluate(ndf, local);
 }
 
-void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
-                 const double direction[3], const double n[3], const double o[3], double rgb[3])
+/* D G2 F / (4 cos theta_o) of one sun, all vectors in the tangent frame. */
+static void scatter(const pe_surface *surface, const double o[3], double lambda_o, const double w[3],
+                    const double power[3], double rgb[3])
+{
+    double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, share;
+
+    pe_normalize(h, h);
+    share = pe_ndf_evaluate(&surface->ndf, h) / (4 * o[2] * (1 + lambda_o + pe_ndf_lambda(&surface->ndf, w)));
+    for (int c = 0; c < 3; c++)
+        rgb[c] += share * pe_reflectance(surface->eta[c], surface->k[c], pe_dot(o, h)) * power[c];
+}
+
+/* What the maps hold is scaled to the albedo, so that their denominator is the closed form's: nothing is to be divided
+ * by. */
+static void add_scattered(const pe_suns *suns, const pe_surface *surface, const double direction[3], const double n[3],
+                          const double world_o[3], double rgb[3])
+{
+    double o[3], lambda_o;
+    pe_frame frame;
+
+    pe_frame_make(n, direction, &frame);
+    pe_frame_coordinates(&frame, world_o, o);
+    o[2] = fmax(o[2], PE_HORIZON);
+    lambda_o = pe_ndf_lambda(&surface->ndf, o);
+    for (int k = 0; k < suns->count; k++) {
+        double w[3];
+
+        pe_frame_coordinates(&frame, suns->direction[k], w);
+        if (w[2] > PE_HORIZON)
+            scatter(surface, o, lambda_o, w, suns->power[k], rgb);
+    }
+}
+
+static void add_weighted(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+                         const double direction[3], const double n[3], const double o[3], double rgb[3])
 {
     pe_frame frame = { { 0 }, { 0 }, { 0 } };
     double weight = 0;                                      /* of all light; 0: not yet needed, nor the frame */
@@ -147,4 +181,13 @@ void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denomi
         for (int c = 0; c < 3; c++)
             rgb[c] += share * suns->power[k][c];
     }
+}
+
+void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+                 const double direction[3], const double n[3], const double o[3], double rgb[3])
+{
+    if (surface->weight == PE_WEIGHT_MICROFACET)
+        add_scattered(suns, surface, direction, n, o, rgb);
+    else
+        add_weighted(suns, surface, denominator, direction, n, o, rgb);
 }

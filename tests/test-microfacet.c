@@ -322,6 +322,16 @@ static void test_bakes(void)
     pe_ndf_table_free(table);
 }
 
+/* A sun of 10,000 in a gradient: a light of its own. */
+static float *gradient_with_sun(int width, int height)
+{
+    float *rgb = reference_gradient(width, height);
+
+    for (int c = 0; c < 3; c++)
+        rgb[3 * (width * height / 3) + c] = 10000;
+    return rgb;
+}
+
 /* What a renderer sees of the default maps: gold in a white furnace and in a coloured one, from any side. */
 static void test_lookups(const char *name, float *rgb, double bound)
 {
@@ -333,6 +343,7 @@ static void test_lookups(const char *name, float *rgb, double bound)
     unsigned state = 21;
 
     need(pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
+    note("%s: %d suns", name, pe_maps_get_info(maps)->suns);
     for (int k = 0; k < 300; k++) {
         double n[3], o[3], seen[3], exact[3];
 
@@ -395,6 +406,7 @@ int main(void)
     test_bakes();
     test_lookups("white furnace", reference_constant(64, 32, 1), 0.006);
     test_lookups("gradient", reference_gradient(64, 32), 0.006);
+    test_lookups("a sun", gradient_with_sun(64, 32), 0.006);
     test_refusals();
     return done_testing();
 }
