@@ -5,6 +5,7 @@
 #include "status.h"
 #include "vector.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,18 +127,41 @@ static pe_status take_image(pe_status status, pe_image *image, const char *name,
     return status;
 }
 
+/* Neither keeps anybody from using the picture, and both give results that look wrong for no visible reason. */
+static void remark(pe_env *env, bool is_png)
+{
+    char shape[128] = "";
+    const char *light = "a PNG holds no light brighter than white, so suns and lamps are lost; "
+                        "OpenEXR or Radiance HDR keep them";
+
+    if (env->width != 2 * env->height)
+        snprintf(shape, sizeof shape, "%d x %d texels are not twice as wide as high, as a whole sphere is", env->width,
+                 env->height);
+    snprintf(env->remark, sizeof env->remark, "%s%s%s", shape, *shape && is_png ? "; " : "", is_png ? light : "");
+}
+
 pe_status pe_env_read(const char *path, pe_env **env, pe_error *error)
 {
-    pe_image image = { 0 };
+    unsigned char *bytes;
+    size_t size;
+    pe_status status = pe_file_read(path, &bytes, &size, error);
 
-    return take_image(pe_image_read(path, &image, error), &image, pe_base_name(path), env, error);
+    if (status != PE_OK)
+        return status;
+    status = pe_env_read_memory(bytes, size, path, env, error);
+    free(bytes);
+    return status;
 }
 
 pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, pe_env **env, pe_error *error)
 {
     pe_image image = { 0 };
+    pe_status status =
+        take_image(pe_image_read_memory(bytes, size, name, &image, error), &image, pe_base_name(name), env, error);
 
-    return take_image(pe_image_read_memory(bytes, size, name, &image, error), &image, pe_base_name(name), env, error);
+    if (status == PE_OK)
+        remark(*env, pe_png_detect(bytes, size));
+    return status;
 }
 
 pe_status pe_env_create(int width, int height, const float *rgb, pe_env **env, pe_error *error)
@@ -183,6 +207,11 @@ const char *pe_env_name(const pe_env *env)
 size_t pe_env_repairs(const pe_env *env)
 {
     return env->repairs;
+}
+
+const char *pe_env_remark(const pe_env *env)
+{
+    return env->remark;
 }
 
 /* ---- lookup ---- */

@@ -27,6 +27,7 @@ struct pe_env {
     float *rgb;
     char *name;
     size_t repairs;
+    char remark[256]; /* see pe_env_remark */
     pe_grid grid;
 };
 

@@ -103,6 +103,7 @@ int pe_env_height(const pe_env *env);
 const float *pe_env_texels(const pe_env *env); /* 3 * width * height floats, rows from +y down */
 const char *pe_env_name(const pe_env *env);    /* the file's name without its folder; "" if made from memory */
 size_t pe_env_repairs(const pe_env *env);      /* texels repaired on load */
+const char *pe_env_remark(const pe_env *env);  /* what of a file is doubtful as an environment, a sentence; or "" */
 
 /* Radiance from `direction` (any length but zero), bilinear between texel centres, over the poles and around. */
 void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);

@@ -179,7 +179,7 @@ static pe_status bake_file(const bake_settings *settings, const pe_surface *surf
     if (status != PE_OK)
         return status;
     if (!settings->quiet)
-        cli_warn_of_repairs("bake", settings->environment, env);
+        cli_warn_of_flaws("bake", settings->environment, env);
     status = bake_maps(settings, surface, env, maps, error);
     pe_env_free(env);
     if (status != PE_OK)

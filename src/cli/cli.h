@@ -21,7 +21,7 @@ __attribute__((format(printf, 2, 3))) void cli_warning(const char *command, cons
 pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error);
 
 /* One warning if texels of the environment read from `path` were repaired. */
-void cli_warn_of_repairs(const char *command, const char *path, const pe_env *env);
+void cli_warn_of_flaws(const char *command, const char *path, const pe_env *env);
 
 /* The word among `count` that is nearest to what was typed, or NULL if none is near enough to be meant. */
 const char *cli_nearest(const char *typed, const char *const *words, size_t count);

@@ -63,7 +63,7 @@ static int answer(const exact_settings *settings, const pe_surface *surface)
         return CLI_FAILURE;
     }
     if (!settings->quiet)
-        cli_warn_of_repairs("exact", settings->environment, env);
+        cli_warn_of_flaws("exact", settings->environment, env);
     result = answer_lines(settings, surface, env);
     pe_env_free(env);
     return result;
