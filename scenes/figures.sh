@@ -145,6 +145,26 @@ exr fig5c fig5c.pov 960 800 +A0.1 +AM2 -J
 exr fig6b-half fig6b.pov $side $side -A Declare=Samples=$((samples / 2))
 exr fig6b fig6b.pov $side $side -A Declare=Samples=$samples
 
+# A scene that bakes by itself; as a picture only.
+gallery()
+{
+    local scene=$scenes/gallery.pov options='+W1200 +H800 +A0.1 -J +Lwork' command
+
+    command="$POVRAY_PREFENV +I$scene +O$figures/gallery.png $options"
+    if newer gallery.png "$scene" "$scenes/include/prefenv.inc" "$POVRAY_PREFENV" work/environment.exr &&
+        same "$command" gallery.txt; then
+        say gallery 'up to date'
+        return
+    fi
+    # shellcheck disable=SC2086 # a list of words
+    render work/gallery.log "$scene" work/gallery.part.png $options
+    mv work/gallery.part.png gallery.png
+    echo "$command" >gallery.txt
+    say gallery "baked and traced; tracing took $trace_seconds s"
+}
+
+gallery
+
 # ---- the table ----
 
 pictures='fig6b-half fig6c fig6d fig6e fig6f'

@@ -7,8 +7,8 @@
 #   small_render NAME  NAME.png in the working folder
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
-small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f ten_lines cylinder spheres fig4 fig6
-    readme surfaces view'
+small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f ten_lines cylinder spheres gallery fig4
+    fig6 readme surfaces view'
 
 small_prepare()
 {
@@ -56,6 +56,7 @@ small_render()
         fig5a) size='+W160 +H80 -A' ;;
         fig5b | fig5c) size='+W160 +H133 +A0.1 -J' ;;
         fig6b) size="$size Declare=Samples=1024" ;;
+        gallery) size='+W192 +H128 +A0.1 -J' ;;
         ten_lines) size='+W160 +H120 -A' ;;
         spheres) size='+W240 +H60 -A' ;;
         fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
@@ -68,7 +69,15 @@ small_render()
             ;;
     esac
     # shellcheck disable=SC2086
-    render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+    case $1 in
+        gallery)
+            # It bakes by itself; of a smaller environment, so that it takes seconds.
+            mkdir -p gallery
+            render gallery.log "$srcdir/scenes/fig5a.pov" gallery/environment.exr +W128 +H64 -A +L.
+            (cd gallery && render gallery.log "$srcdir/scenes/gallery.pov" ../gallery.png $size)
+            ;;
+        *) render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L. ;;
+    esac
 }
 
 # Other processors round otherwise in the last bits, and that is all that should differ.  The noise of a Monte Carlo
@@ -77,7 +86,7 @@ small_bound()
 {
     case $1 in
         fig6b) echo 0.02 ;;
-        fig6 | readme) echo 0.005 ;;
+        fig6 | readme | gallery) echo 0.005 ;;
         *) echo 0.002 ;;
     esac
 }

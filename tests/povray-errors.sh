@@ -48,7 +48,16 @@ wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
 wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'
-wrong 'maps with a direction' 'exr "maps.exr" direction x' 'This file holds maps'
+wrong 'uv_mapping without a direction' 'hdr "chart.hdr" roughness 0.1 uv_mapping' \
+    'uv_mapping and pattern say how .*give a direction'
+wrong 'a pattern without a direction' 'exr "maps.exr" pattern { bozo }' 'uv_mapping and pattern say how'
+wrong 'no axis' 'hdr "chart.hdr" roughness 0.1 direction rotate 0' 'direction must not be <0, 0, 0>'
+wrong 'no metal' 'hdr "chart.hdr" roughness 0.1 metallic "gould"' \
+    "'gould' is not a metal that is known here: write one of aluminium, .*titanium"
+wrong 'an index of nothing' 'hdr "chart.hdr" roughness 0.1 ior 0.1, 0.1' 'the index of refraction 0.1 .* is no conductor'
+wrong 'type 4' 'hdr "chart.hdr" roughness 0.1 type 4' 'type must be 1 \(Beckmann\), 2 .*but 4 was given'
+wrong 'maps with a type' 'exr "maps.exr" type 2' 'This file holds maps'
+wrong 'a type out of no distribution' 'hdr "chart.hdr" type exr "maps.exr"' 'maps.exr'
 wrong 'a plain environment alone' 'hdr "chart.hdr"' \
     'This file is a plain environment: give the roughness of the surface'
 wrong 'a plain environment without roughness' 'hdr "chart.hdr" samples 4' \
@@ -91,6 +100,20 @@ printf '#version unofficial 3.7;\nglobal_settings { assumed_gamma 2.2 }\nsky_sph
 render gamma.pov +W8 +H8 -F
 like "$said" "File 'gamma.pov' line 3: Parse Warning: The radiance of an environment is linear: use assumed_gamma 1.0" \
     'another assumed_gamma than 1 is warned of'
+
+chart square.hdr 16 16
+oiiotool chart.hdr --clamp:max=1 -d uint8 -o eight.png
+scene odd.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "square.hdr" } } }'
+render odd.pov +W8 +H8 -F
+like "$said" "line 4: Parse Warning: 'square.hdr': 16 x 16 texels are not twice as wide as high" \
+    'an environment of another shape than 2:1 is warned of'
+scene odd.pov <<<'sky_sphere { pigment { prefiltered_environment { png "eight.png" } } }'
+render odd.pov +W8 +H8 -F
+like "$said" "line 4: Parse Warning: 'eight.png': a PNG holds no light brighter than white" '... and so is a PNG'
+
+printf '%s\n' 'sphere { 0, 1 finish { reflection { 1 prefiltered_environment { exr "maps.exr" } } } }' >hint.pov
+rejected 'without #version unofficial the way out is said' \
+    "line 1: Parse Error: .*'prefiltered_environment' found instead: it is a word .* #version unofficial 3.7" hint.pov
 
 # amount NAME WORDS WARNINGS: how often a reflection of these words is warned of for showing nothing.
 amount()

@@ -84,8 +84,9 @@ agrees '1002 normals, linear: within 0.2 % of exact in the mean' '0.06 0.002' 20
 size=32
 sphere 'hdr "chart.hdr" roughness 0.2 samples 20000' '' 20,30,0
 agrees 'roughness and samples: within 0.3 % of exact in the mean' '0.08 0.003' 20,30,0 0,0,0 exact chart.hdr --alpha 0.2
-sphere 'hdr "chart.hdr" roughness 0.3, 0.1 direction <1, 2, 0.5> samples 20000 rotate <10, 50, 20>' '' 20,30,0
-agrees '... brushed, with the environment turned' '0.08 0.003' 20,30,0 10,50,20 \
+sphere 'hdr "chart.hdr" roughness 0.3, 0.1 direction <1, 2, 0.5> samples 20000 rotate <10, 50, 20>' \
+    'rotate <10, 50, 20>' 20,30,0
+agrees '... brushed, with environment and object turned' '0.08 0.003' 20,30,0 10,50,20 \
     exact chart.hdr --alpha 0.3,0.1 --direction 1,2,0.5
 
 # ---- the same picture every time ----
