@@ -43,7 +43,7 @@ static double cluster_count(const pe_ndf *ndf, double wanted)
 static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
     double texels = (double)env->width * env->height;
-    double clusters = cluster_count(&j->maps->info.surface.ndf, pe_wanted_error(j->options));
+    double clusters = cluster_count(&j->maps->info.surface.ndf, pe_wanted_error(j->options)) * 2.5;
 
     if (j->maps->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
         return pe_cloud_from_env(env, cloud, error);
@@ -61,6 +61,35 @@ static double reach_of(const job *j)
 
 /* ---- the methods ---- */
 
+static pe_status fill_by_lights(job *j, const pe_cloud *cloud, pe_maps *maps, pe_error *error)
+{
+    j->report.total = maps->info.images;
+    return pe_fill_hemispheres(cloud, j->lobe, reach_of(j), j->options->threads, &j->report, maps, error);
+}
+
+static pe_status fill_by_kernel(job *j, const pe_cloud *cloud, pe_maps *maps, pe_error *error)
+{
+    pe_disc cells = pe_kernel_cells(j->lobe, pe_wanted_error(j->options));
+    pe_kernel *kernel;
+    pe_status status = pe_kernel_make(j->lobe, &maps->disc, &cells, j->options->threads, &kernel, error);
+
+    if (status != PE_OK)
+        return status;
+    j->report.total = (double)(maps->info.images + PE_KERNEL_GROUP - 1) / PE_KERNEL_GROUP;
+    status = pe_fill_hemispheres_by_kernel(cloud, j->lobe, kernel, j->options->threads, &j->report, maps, error);
+    pe_kernel_free(kernel);
+    return status;
+}
+
+#define KERNEL_BYTES_MAX 5e8
+
+/* A kernel is a table of D alone, and has to be held in memory. */
+static int suits_kernel(const pe_maps_info *info)
+{
+    return info->accuracy == PE_ACCURACY_FAST && info->surface.weight == PE_WEIGHT_NDF &&
+           pe_kernel_bytes(info->width, info->height) < KERNEL_BYTES_MAX;
+}
+
 static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
 {
     pe_env *rest;
@@ -71,8 +100,8 @@ static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_e
         return status;
     status = make_cloud(j, rest, &cloud, error);
     if (status == PE_OK) {
-        j->report.total = maps->info.images;
-        status = pe_fill_hemispheres(&cloud, j->lobe, reach_of(j), j->options->threads, &j->report, maps, error);
+        status =
+            suits_kernel(&maps->info) ? fill_by_kernel(j, &cloud, maps, error) : fill_by_lights(j, &cloud, maps, error);
         pe_cloud_free(&cloud);
     }
     pe_env_free(rest);
@@ -118,16 +147,13 @@ static pe_status bake_pairs_from_lights(job *j, const pe_env *env, pe_error *err
     return status;
 }
 
-/* By way of hemispheres, where these have fewer texels. */
+/* By way of hemispheres, if these can be filtered by a kernel. */
 static pe_status bake_pairs(job *j, const pe_env *env, pe_error *error)
 {
-    const pe_maps_info *pairs = &j->maps->info;
-    pe_maps_info hemispheres = hemispheres_for(pairs);
+    pe_maps_info hemispheres = hemispheres_for(&j->maps->info);
 
-    if (pairs->accuracy == PE_ACCURACY_FAST &&
-        2 * (double)hemispheres.width * hemispheres.height < (double)pairs->width * pairs->height)
-        return bake_pairs_from_hemispheres(j, env, &hemispheres, error);
-    return bake_pairs_from_lights(j, env, error);
+    return suits_kernel(&hemispheres) ? bake_pairs_from_hemispheres(j, env, &hemispheres, error)
+                                      : bake_pairs_from_lights(j, env, error);
 }
 
 static pe_status bake_baseline(job *j, const pe_env *env, pe_error *error)

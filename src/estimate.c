@@ -11,8 +11,9 @@
 #include <stdlib.h>
 
 #define FRAMES 12            /* normals looked at; of a baseline map, where each texel has its own, texels */
-#define POINTS_PER_FRAME 192 /* views for each */
+#define POINTS_PER_FRAME 128 /* views for each */
 #define COSINE_MIN 0.15
+#define LIMIT 20.0 /* exp(-20) is 2e-9: what is beyond changes nothing that is shown */
 
 /* One normal, the views chosen for it, and what came out. */
 typedef struct trial {
@@ -131,7 +132,7 @@ static void try_viewers(trial *t, const pe_frame *frame, const pe_lights *lights
 static void try_frame(trial *t, const double n[3], pe_frame *frame, pe_lights *lights)
 {
     pe_frame_make(n, t->maps->info.direction, frame);
-    pe_lights_fill(t->cloud, t->lobe, frame, pe_lobe_reach(t->lobe, PE_LOBE_CUTOFF), lights);
+    pe_lights_fill(t->cloud, t->lobe, frame, pe_lobe_reach(t->lobe, LIMIT), lights);
 }
 
 /* A representative normal. */

@@ -240,6 +240,16 @@ void pe_lights_fill(const pe_cloud *cloud, const pe_lobe *lobe, const pe_frame *
     }
 }
 
+void pe_light_at(const pe_lights *lights, size_t light, float direction[3], float values[4])
+{
+    const float *value = block_values(lights, light / PE_LIGHT_BLOCK, X) + light % PE_LIGHT_BLOCK;
+
+    for (int c = 0; c < 3; c++)
+        direction[c] = value[(X + c) * PE_LIGHT_BLOCK];
+    for (int c = 0; c < 4; c++)
+        values[c] = value[(WEIGHT + c) * PE_LIGHT_BLOCK];
+}
+
 /* ---- the hot loop ---- */
 
 /* The sum of a viewer's direction and of each lane's light's. */

@@ -64,6 +64,9 @@ void pe_lights_free(pe_lights *lights);
 void pe_lights_fill(const pe_cloud *cloud, const pe_lobe *lobe, const pe_frame *frame, double lobe_reach,
                     pe_lights *lights);
 
+/* Light number `light` of the blocks: its direction, and weight, red, green and blue; a light of padding has none. */
+void pe_light_at(const pe_lights *lights, size_t light, float direction[3], float values[4]);
+
 /* For each viewer o[k] (unit, tangent frame, z > 0): sums[k] = sum of weight, of red, green and blue over the lights,
  * each times D(h), and for PE_WEIGHT_MICROFACET times G2, and the colours times F.  A common factor is left out: only
  * ratios of sums mean anything. */

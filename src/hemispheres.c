@@ -117,3 +117,84 @@ pe_status pe_fill_hemispheres(const pe_cloud *cloud, const pe_lobe *lobe, double
     free_texels(&j.texels);
     return status;
 }
+
+/* ---- by a kernel ---- */
+
+typedef struct kernel_job {
+    const pe_cloud *cloud;
+    const pe_lobe *lobe;
+    const pe_kernel *kernel;
+    pe_maps *maps;
+    unsigned char *done; /* memory sufficed for this group */
+} kernel_job;
+
+/* A group of images with consecutive numbers. */
+typedef struct group {
+    const kernel_job *job;
+    int first, count;
+    pe_frame frames[PE_KERNEL_GROUP];
+} group;
+
+static void store_group(int place, const float o[3], const double (*sums)[4], void *data)
+{
+    const group *g = data;
+    const kernel_job *j = g->job;
+    const double local[3] = { -(double)o[0], -(double)o[1], (double)o[2] };
+
+    for (int k = 0; k < g->count; k++) {
+        float *out = pe_maps_image_to_fill(j->maps, g->first + k) + 3 * place;
+        double world[3], rgb[3];
+
+        pe_frame_direction(&g->frames[k], local, world);
+        pe_filter_radiance(j->lobe, j->cloud->env, sums[k], world, o, rgb);
+        for (int c = 0; c < 3; c++)
+            out[c] = (float)fmax(rgb[c], 0);
+    }
+}
+
+static void filter_group(group *g, pe_lights *lights, float *cells)
+{
+    const kernel_job *j = g->job;
+
+    for (int k = 0; k < g->count; k++) {
+        pe_maps_frame(j->maps, g->first + k, &g->frames[k]);
+        pe_lights_fill(j->cloud, j->lobe, &g->frames[k], M_PI, lights);
+        pe_kernel_spread(j->kernel, lights, k, cells);
+    }
+    pe_kernel_apply(j->kernel, cells, store_group, g);
+    for (int k = 0; k < g->count; k++)
+        pe_disc_continue(&j->maps->disc, pe_maps_image_to_fill(j->maps, g->first + k));
+}
+
+static void run_group(size_t index, void *data)
+{
+    kernel_job *j = data;
+    group g = { .job = j, .first = (int)index * PE_KERNEL_GROUP };
+    float *cells = calloc(pe_kernel_cell_values(j->kernel), sizeof *cells);
+    pe_lights lights = { 0 };
+
+    g.count = j->maps->info.images - g.first < PE_KERNEL_GROUP ? j->maps->info.images - g.first : PE_KERNEL_GROUP;
+    if (cells && pe_lights_allocate(j->cloud, &lights, NULL) == PE_OK) {
+        filter_group(&g, &lights, cells);
+        j->done[index] = 1;
+    }
+    pe_lights_free(&lights);
+    free(cells);
+}
+
+pe_status pe_fill_hemispheres_by_kernel(const pe_cloud *cloud, const pe_lobe *lobe, const pe_kernel *kernel,
+                                        int threads, const pe_report *report, pe_maps *maps, pe_error *error)
+{
+    size_t groups = ((size_t)maps->info.images + PE_KERNEL_GROUP - 1) / PE_KERNEL_GROUP;
+    kernel_job j = { cloud, lobe, kernel, maps, calloc(groups, sizeof *j.done) };
+    pe_status status;
+
+    if (!j.done)
+        return pe_fail_memory(error, "a table of groups");
+    status = pe_parallel_for(groups, threads, run_group, &j, report);
+    for (size_t k = 0; status == PE_OK && k < groups; k++)
+        if (!j.done[k])
+            status = pe_fail_memory(error, "a grid of cells");
+    free(j.done);
+    return status;
+}

@@ -3,6 +3,7 @@
 #define PE_HEMISPHERES_H
 
 #include "filter.h"
+#include "kernel.h"
 #include "maps.h"
 #include "parallel.h"
 
@@ -10,5 +11,9 @@
  * lobe: the maps' surface; lobe_reach: as for pe_lights_fill. */
 pe_status pe_fill_hemispheres(const pe_cloud *cloud, const pe_lobe *lobe, double lobe_reach, int threads,
                               const pe_report *report, pe_maps *maps, pe_error *error);
+
+/* The same, approximately, by a kernel made for the lobe and maps of this size. */
+pe_status pe_fill_hemispheres_by_kernel(const pe_cloud *cloud, const pe_lobe *lobe, const pe_kernel *kernel,
+                                        int threads, const pe_report *report, pe_maps *maps, pe_error *error);
 
 #endif

@@ -150,7 +150,8 @@ static void copy_texel(const copy *c, int image, const double world[3], float *o
     for (int k = 0; k < 3; k++)
         rgb[k] = fmax((double)shown[k], 0);
     pe_reflect(world, frame.n, o);
-    pe_suns_add(&from->suns, &from->info.surface, from->denominator, from->info.direction, frame.n, o, rgb);
+    if (from->suns.count)
+        pe_suns_add(&from->suns, &from->info.surface, from->denominator, from->info.direction, frame.n, o, rgb);
     for (int k = 0; k < 3; k++)
         out[k] = (float)rgb[k];
 }

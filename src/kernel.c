@@ -1,0 +1,350 @@
+/* kernel.c - see kernel.h.
+ *
+ * Of a texel's kernel, a window about the mirror direction is evaluated and turned into spline coefficients; in each of
+ * its rows, what is not negligible is kept, as a span. */
+#include "kernel.h"
+
+#include "lanes.h"
+#include "parallel.h"
+#include "spline.h"
+#include "status.h"
+#include "vector.h"
+
+#include <stdlib.h>
+
+/* Half vectors of a density below exp(-LIMIT) of the greatest do not count. */
+#define LIMIT 14.0
+#define SLOPE_MAX 100.0 /* where a density never falls so low */
+/* Coefficients below this share of the greatest are left out. */
+#define NEGLIGIBLE 1e-5
+
+typedef struct span {
+    int cell, count; /* neighbours in a row of cells */
+    size_t weights;  /* place of the first one's */
+} span;
+
+typedef struct texel {
+    int place;
+    float o[3];
+    size_t spans, span_count;
+} texel;
+
+/* A row of the picture. */
+typedef struct row {
+    texel *texels;
+    span *spans;
+    float *weights;
+    size_t texel_count, span_count, span_room, weight_count, weight_room;
+    int failed;
+} row;
+
+struct pe_kernel {
+    const pe_lobe *lobe; /* while it is made */
+    pe_disc map, cells;
+    double reach[2]; /* the slopes along t and b that count */
+    row *rows;
+};
+
+/* ---- sizes ---- */
+
+#define PITCH 0.25 /* of alpha, for an error of PITCH_ERROR, which goes with its fourth power */
+#define PITCH_ERROR 0.002
+#define PITCH_MIN 0.15
+#define PITCH_MAX 0.42
+
+pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted)
+{
+    double pitch = PITCH * pow(wanted / PITCH_ERROR, 0.25), fineness[2];
+
+    pitch = fmin(fmax(pitch, PITCH_MIN), PITCH_MAX);
+    pe_ndf_fineness(&lobe->surface.ndf, fineness);
+    return (pe_disc){ (int)fmin(2 / (pitch * fineness[0]) + 2 * PE_DISC_MARGIN, 8192) + 1,
+                      (int)fmin(2 / (pitch * fineness[1]) + 2 * PE_DISC_MARGIN, 8192) + 1 };
+}
+
+double pe_kernel_bytes(int width, int height)
+{
+    return 0.8 * width * height * 600.0 * sizeof(float);
+}
+
+/* ---- make ---- */
+
+/* The direction of a cell, in its turn below the horizon, which the spline reaches across. */
+static void cell_direction(const pe_disc *cells, int x, int y, double w[3])
+{
+    double p = (x + 0.5 - cells->width / 2.0) / pe_disc_radius(cells->width);
+    double q = (y + 0.5 - cells->height / 2.0) / pe_disc_radius(cells->height);
+    double square = fmin(p * p + q * q, 1.9), scale = sqrt(2 - square);
+
+    w[0] = p * scale;
+    w[1] = q * scale;
+    w[2] = 1 - square;
+}
+
+static float density(const pe_kernel *k, const double o[3], const double w[3])
+{
+    double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] };
+
+    double p = h[0] / k->reach[0], q = h[1] / k->reach[1];
+
+    if (!(h[2] > 0) || p * p + q * q > h[2] * h[2])
+        return 0;
+    pe_normalize(h, h);
+    return (float)pe_ndf_evaluate(&k->lobe->surface.ndf, h);
+}
+
+/* Where the viewer o sees a light in a mirror of normal h, on the unit disc; h is not unit. */
+static void mirror_point(const double o[3], const double h[3], double point[2])
+{
+    double unit[3], w[3], scale;
+
+    pe_normalize(h, unit);
+    pe_reflect(o, unit, w);
+    scale = 1 / sqrt(fmax(1 + w[2], 0.1));
+    point[0] = w[0] * scale;
+    point[1] = w[1] * scale;
+}
+
+#define RIM 24 /* half vectors around the lobe */
+
+/* The cells that may matter: those about the lights that half vectors on the lobe's rim reflect to the viewer, widened
+ * by a part, and a few more for the spline. */
+static pe_rect window_of(const pe_kernel *k, const double o[3])
+{
+    double centre[2], extent[2] = { 0, 0 }, middle[2];
+    static const double straight[3] = { 0, 0, 1 };
+
+    mirror_point(o, straight, centre);
+    for (int i = 0; i < RIM; i++) {
+        double angle = 2 * M_PI * i / RIM, point[2];
+        const double h[3] = { k->reach[0] * cos(angle), k->reach[1] * sin(angle), 1 };
+
+        mirror_point(o, h, point);
+        for (int c = 0; c < 2; c++)
+            extent[c] = fmax(extent[c], fabs(point[c] - centre[c]));
+    }
+    for (int c = 0; c < 2; c++) {
+        int side = c ? k->cells.height : k->cells.width;
+
+        middle[c] = centre[c] * pe_disc_radius(side) + side / 2.0;
+        extent[c] = 1.1 * extent[c] * pe_disc_radius(side) + 3;
+    }
+    return (pe_rect){ (int)fmax(0, middle[0] - extent[0]), (int)fmax(0, middle[1] - extent[1]),
+                      (int)fmin(k->cells.width, middle[0] + extent[0] + 1),
+                      (int)fmin(k->cells.height, middle[1] + extent[1] + 1) };
+}
+
+static void fill_window(const pe_kernel *k, const pe_rect *window, const double o[3], float *values)
+{
+    int width = window->right - window->left, height = window->bottom - window->top;
+
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double w[3];
+
+            cell_direction(&k->cells, window->left + x, window->top + y, w);
+            values[y * width + x] = density(k, o, w);
+        }
+    pe_spline_coefficients(values, width, height, 1);
+}
+
+/* Room for `more` elements; false if there is no memory. */
+static int make_room(void **array, size_t *room, size_t needed, size_t size)
+{
+    void *larger;
+
+    if (needed <= *room)
+        return 1;
+    *room = 2 * needed + 256;
+    larger = realloc(*array, *room * size);
+    if (!larger)
+        return 0;
+    *array = larger;
+    return 1;
+}
+
+/* What is not negligible of a row of the window. */
+static void keep_span(row *r, int cell, const float *values, int width, float least)
+{
+    int first = 0, last = width - 1;
+
+    while (first < width && !(fabsf(values[first]) > least))
+        first++;
+    while (last > first && !(fabsf(values[last]) > least))
+        last--;
+    if (first > last)
+        return;
+    if (!make_room((void **)&r->spans, &r->span_room, r->span_count + 1, sizeof *r->spans) ||
+        !make_room((void **)&r->weights, &r->weight_room, r->weight_count + (size_t)width, sizeof *r->weights)) {
+        r->failed = 1;
+        return;
+    }
+    r->spans[r->span_count++] = (span){ cell + first, last - first + 1, r->weight_count };
+    memcpy(r->weights + r->weight_count, values + first, (size_t)(last - first + 1) * sizeof *values);
+    r->weight_count += (size_t)(last - first + 1);
+}
+
+static void keep_window(const pe_kernel *k, const pe_rect *window, const float *values, row *r)
+{
+    int width = window->right - window->left, height = window->bottom - window->top;
+    float greatest = 0;
+
+    for (int i = 0; i < width * height; i++)
+        greatest = fmaxf(greatest, fabsf(values[i]));
+    for (int y = 0; y < height && !r->failed; y++)
+        keep_span(r, (window->top + y) * k->cells.width + window->left, values + y * width, width,
+                  (float)NEGLIGIBLE * greatest);
+}
+
+static void make_texel(const pe_kernel *k, int place, const double mirror[3], float *values, row *r)
+{
+    const double o[3] = { -mirror[0], -mirror[1], mirror[2] };
+    texel *t = &r->texels[r->texel_count++];
+    pe_rect window = window_of(k, o);
+
+    *t = (texel){ place, { (float)o[0], (float)o[1], (float)o[2] }, r->span_count, 0 };
+    fill_window(k, &window, o, values);
+    keep_window(k, &window, values, r);
+    t->span_count = r->span_count - t->spans;
+}
+
+static void make_row(size_t y, void *data)
+{
+    pe_kernel *k = data;
+    row *r = &k->rows[y];
+    float *values = malloc((size_t)k->cells.width * (size_t)k->cells.height * sizeof *values);
+
+    r->texels = malloc((size_t)k->map.width * sizeof *r->texels);
+    r->failed = !values || !r->texels;
+    for (int x = 0; x < k->map.width && !r->failed; x++) {
+        double w[3];
+
+        if (pe_disc_direction(&k->map, x, (int)y, w))
+            make_texel(k, (int)y * k->map.width + x, w, values, r);
+    }
+    free(values);
+}
+
+/* Closed forms reach along each axis as far as their alpha; what has a long tail, or is measured, everywhere as far. */
+static void set_reach(pe_kernel *k)
+{
+    const pe_ndf *ndf = &k->lobe->surface.ndf;
+    double farthest = fmin(pe_ndf_reach(ndf, LIMIT), SLOPE_MAX), widest = fmax(ndf->alpha_x, ndf->alpha_y);
+    int is_elliptic = ndf->kind == PE_NDF_BECKMANN;
+
+    k->reach[0] = is_elliptic ? farthest * ndf->alpha_x / widest : farthest;
+    k->reach[1] = is_elliptic ? farthest * ndf->alpha_y / widest : farthest;
+}
+
+pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads, pe_kernel **out,
+                         pe_error *error)
+{
+    pe_kernel *k = calloc(1, sizeof *k);
+    int failed = 0;
+
+    if (!k)
+        return pe_fail_memory(error, "a kernel");
+    k->lobe = lobe;
+    k->map = *map;
+    k->cells = *cells;
+    set_reach(k);
+    k->rows = calloc((size_t)map->height, sizeof *k->rows);
+    if (k->rows)
+        pe_parallel_for((size_t)map->height, threads, make_row, k, NULL);
+    for (int y = 0; k->rows && y < map->height; y++)
+        failed |= k->rows[y].failed;
+    if (!k->rows || failed) {
+        pe_kernel_free(k);
+        return pe_fail_memory(error, "a kernel");
+    }
+    *out = k;
+    return PE_OK;
+}
+
+void pe_kernel_free(pe_kernel *k)
+{
+    if (!k)
+        return;
+    for (int y = 0; k->rows && y < k->map.height; y++) {
+        free(k->rows[y].texels);
+        free(k->rows[y].spans);
+        free(k->rows[y].weights);
+    }
+    free(k->rows);
+    free(k);
+}
+
+/* ---- use ---- */
+
+size_t pe_kernel_cell_values(const pe_kernel *k)
+{
+    return (size_t)k->cells.width * (size_t)k->cells.height * 4 * PE_KERNEL_GROUP;
+}
+
+typedef float quad __attribute__((vector_size(16)));
+
+static void spread_light(const pe_disc *cells, const float direction[3], const quad *value, float *to)
+{
+    float point[2], across[4], down[4];
+    int x, y;
+
+    pe_disc_point(cells, direction, point);
+    x = (int)(point[0] - 0.5f);
+    y = (int)(point[1] - 0.5f);
+    pe_spline_weights(point[0] - 0.5f - (float)x, across);
+    pe_spline_weights(point[1] - 0.5f - (float)y, down);
+    x = x < 1 ? 1 : x > cells->width - 3 ? cells->width - 3 : x;
+    y = y < 1 ? 1 : y > cells->height - 3 ? cells->height - 3 : y;
+    for (int j = 0; j < 4; j++) {
+        float *cell = to + 4 * PE_KERNEL_GROUP * ((y + j - 1) * cells->width + x - 1);
+        quad part = down[j] * *value;
+
+        for (int i = 0; i < 4; i++, cell += 4 * PE_KERNEL_GROUP) {
+            quad sum;
+
+            memcpy(&sum, cell, sizeof sum);
+            sum += across[i] * part;
+            memcpy(cell, &sum, sizeof sum);
+        }
+    }
+}
+
+void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, float *cells)
+{
+    for (size_t light = 0; light < lights->blocks * PE_LIGHT_BLOCK; light++) {
+        float direction[3];
+        quad value;
+
+        pe_light_at(lights, light, direction, (float *)&value);
+        spread_light(&k->cells, direction, &value, cells + 4 * member);
+    }
+}
+
+CLONES static void sum_texel(const row *r, const texel *t, const float *cells, floats *out)
+{
+    floats sum = { 0 };
+
+    for (size_t s = t->spans; s < t->spans + t->span_count; s++) {
+        const float *weights = r->weights + r->spans[s].weights;
+        const float *cell = cells + (size_t)r->spans[s].cell * LANES;
+
+        for (int k = 0; k < r->spans[s].count; k++)
+            sum += weights[k] * load(cell + k * LANES);
+    }
+    *out = sum;
+}
+
+void pe_kernel_apply(const pe_kernel *k, const float *cells, pe_kernel_texel *function, void *data)
+{
+    for (int y = 0; y < k->map.height; y++)
+        for (size_t x = 0; x < k->rows[y].texel_count; x++) {
+            const texel *t = &k->rows[y].texels[x];
+            double sums[PE_KERNEL_GROUP][4];
+            floats sum;
+
+            sum_texel(&k->rows[y], t, cells, &sum);
+            for (int lane = 0; lane < LANES; lane++)
+                sums[lane / 4][lane % 4] = (double)sum[lane];
+            function(t->place, t->o, (const double(*)[4])sums, data);
+        }
+}
