@@ -81,13 +81,11 @@ static pe_status fill_by_kernel(job *j, const pe_cloud *cloud, pe_maps *maps, pe
     return status;
 }
 
-#define KERNEL_BYTES_MAX 5e8
-
-/* A kernel is a table of D alone, and has to be held in memory. */
-static int suits_kernel(const pe_maps_info *info)
+static int suits_kernel(const job *j, const pe_maps_info *info)
 {
-    return info->accuracy == PE_ACCURACY_FAST && info->surface.weight == PE_WEIGHT_NDF &&
-           pe_kernel_bytes(info->width, info->height) < KERNEL_BYTES_MAX;
+    pe_disc cells = pe_kernel_cells(j->lobe, pe_wanted_error(j->options));
+
+    return info->accuracy == PE_ACCURACY_FAST && pe_kernel_suits(j->lobe, &cells, info->width, info->height);
 }
 
 static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
@@ -100,8 +98,8 @@ static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_e
         return status;
     status = make_cloud(j, rest, &cloud, error);
     if (status == PE_OK) {
-        status =
-            suits_kernel(&maps->info) ? fill_by_kernel(j, &cloud, maps, error) : fill_by_lights(j, &cloud, maps, error);
+        status = suits_kernel(j, &maps->info) ? fill_by_kernel(j, &cloud, maps, error)
+                                              : fill_by_lights(j, &cloud, maps, error);
         pe_cloud_free(&cloud);
     }
     pe_env_free(rest);
@@ -152,8 +150,8 @@ static pe_status bake_pairs(job *j, const pe_env *env, pe_error *error)
 {
     pe_maps_info hemispheres = hemispheres_for(&j->maps->info);
 
-    return suits_kernel(&hemispheres) ? bake_pairs_from_hemispheres(j, env, &hemispheres, error)
-                                      : bake_pairs_from_lights(j, env, error);
+    return suits_kernel(j, &hemispheres) ? bake_pairs_from_hemispheres(j, env, &hemispheres, error)
+                                         : bake_pairs_from_lights(j, env, error);
 }
 
 static pe_status bake_baseline(job *j, const pe_env *env, pe_error *error)

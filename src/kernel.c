@@ -62,9 +62,17 @@ pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted)
                       (int)fmin(2 / (pitch * fineness[1]) + 2 * PE_DISC_MARGIN, 8192) + 1 };
 }
 
-double pe_kernel_bytes(int width, int height)
+#define BYTES_MAX 5e8
+#define SPAN_CELLS 600.0 /* that a lobe covers */
+#define WIDE_CELLS_MAX 1e4
+
+int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int height)
 {
-    return 0.8 * width * height * 600.0 * sizeof(float);
+    /* What is not Gaussian may cover all cells. */
+    int is_narrow = lobe->surface.ndf.kind == PE_NDF_BECKMANN;
+
+    return lobe->surface.weight == PE_WEIGHT_NDF && 0.8 * width * height * SPAN_CELLS * sizeof(float) < BYTES_MAX &&
+           (is_narrow || (double)cells->width * cells->height < WIDE_CELLS_MAX);
 }
 
 /* ---- make ---- */

@@ -12,10 +12,12 @@
 
 typedef struct pe_kernel pe_kernel;
 
-/* The grid of cells that carries a lobe with the relative error wanted; how many bytes its kernel for maps of this size
- * will take, roughly. */
+/* The grid of cells that carries a lobe with the relative error wanted. */
 pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted);
-double pe_kernel_bytes(int width, int height);
+
+/* Is a kernel for maps of this size of use?  It is a table of D alone, has to be held in memory, and must not take
+ * longer to make than to do without. */
+int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int height);
 
 pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads, pe_kernel **kernel,
                          pe_error *error);
