@@ -130,6 +130,7 @@ static void test_normals(void)
     ok(pe_slopes_of_normals(&image, "map", PE_GREEN_UP, &up, &error) == PE_ERROR_FORMAT &&
            strstr(error.message, "map: no texel"),
        "nothing but black: %s", error.message);
+    pe_slopes_free(&up);
     pe_slopes_free(&down);
 }
 
