@@ -67,6 +67,14 @@ is "$(grep -c 'warning: negative.exr: 2 of [0-9]* texels, .* were repaired' <<<"
 # shellcheck disable=SC2086
 is "$("$PREFENV" bake negative.exr -o n.exr -q $quick 2>&1)" "" "which --quiet leaves out"
 
+oiiotool env.exr --resize 32x32 -o square.exr
+# shellcheck disable=SC2086
+like "$("$PREFENV" bake square.exr -o n.exr $quick 2>&1)" 'warning: square.exr: 32 x 32 texels are not twice as wide' \
+    "an environment of another shape than 2:1 is warned of"
+# shellcheck disable=SC2086
+like "$("$PREFENV" bake env.png -o n.exr $quick 2>&1)" 'warning: env.png: a PNG holds no light brighter than white' \
+    "and so is a PNG"
+
 oiiotool env.exr --mulc 1e6 -d float -o sun.exr
 # shellcheck disable=SC2086
 said=$("$PREFENV" bake sun.exr -o s.exr $quick 2>&1)

@@ -8,7 +8,7 @@
 size=48
 chart chart.hdr 32 16
 cp chart.hdr other.hdr
-"$PREFENV" surface milled -o cut.exr --quiet 2>/dev/null || "$PREFENV" surface milled -o cut.exr || bail_out 'no surface'
+"$PREFENV" surface milled -o cut.exr || bail_out 'no surface'
 "$PREFENV" ndf cut.exr -o cut.ndf.exr || bail_out 'no distribution'
 
 # spheres BLOCK...: one sphere a block, side by side; a picture of them would be picture.exr
@@ -41,14 +41,15 @@ bakes() # how often it said that it bakes
 # ---- the same as prefenv bake ----
 
 # WORDS|OPTIONS of prefenv bake
-for case in 'roughness 0.2|--alpha 0.2' 'roughness 0.3, 0.1|--alpha 0.3,0.1' 'roughness <0.1, 0.3>|--alpha 0.1,0.3' \
-    'roughness 0.2 type Prefenv_GGX|--alpha 0.2 --ndf ggx' 'type 3 roughness 0.2|--alpha 0.2 --ndf phong' \
-    'type exr "cut.ndf.exr"|--ndf cut.ndf.exr' 'roughness 0.2 accuracy 0.05|--alpha 0.2 --error 0.05' \
-    'roughness 0.3 metallic "copper"|--alpha 0.3 --weight microfacet --material copper' \
-    'roughness 0.3 ior <0.3, 1.02, 1.24>, <3.205, 2.577, 2.397>|--alpha 0.3 --weight microfacet --material copper'; do
+cases=('roughness 0.2|--alpha 0.2' 'roughness 0.3, 0.1|--alpha 0.3,0.1' 'roughness <0.1, 0.3>|--alpha 0.1,0.3'
+    'roughness 0.2 type Prefenv_GGX|--alpha 0.2 --ndf ggx' 'type 3 roughness 0.2|--alpha 0.2 --ndf phong'
+    'type exr "cut.ndf.exr"|--ndf cut.ndf.exr' 'roughness 0.2 accuracy 0.05|--alpha 0.2 --error 0.05'
+    'roughness 0.3 metallic "copper"|--alpha 0.3 --weight microfacet --material copper'
+    'roughness 0.3 ior <0.3, 1.02, 1.24>, <3.205, 2.577, 2.397>|--alpha 0.3 --weight microfacet --material copper')
+for case in "${cases[@]}"; do
     words=${case%|*}
-    # shellcheck disable=SC2086 # a list of words
-    bake chart.hdr -o maps.exr ${case#*|} --float
+    read -ra options <<<"${case#*|}"
+    bake chart.hdr -o maps.exr "${options[@]}" --float
     picture file 'exr "maps.exr" rotate 30*y'
     picture memory "hdr \"chart.hdr\" $words rotate 30*y"
     ok "$words: the picture of prefenv bake ${case#*|}" "$PREFENV" diff memory.exr file.exr --fail-above 1e-3

@@ -54,7 +54,8 @@ wrong 'a pattern without a direction' 'exr "maps.exr" pattern { bozo }' 'uv_mapp
 wrong 'no axis' 'hdr "chart.hdr" roughness 0.1 direction rotate 0' 'direction must not be <0, 0, 0>'
 wrong 'no metal' 'hdr "chart.hdr" roughness 0.1 metallic "gould"' \
     "'gould' is not a metal that is known here: write one of aluminium, .*titanium"
-wrong 'an index of nothing' 'hdr "chart.hdr" roughness 0.1 ior 0.1, 0.1' 'the index of refraction 0.1 .* is no conductor'
+wrong 'an index of nothing' 'hdr "chart.hdr" roughness 0.1 ior 0.1, 0.1' \
+    'the index of refraction 0.1 .* is no conductor'
 wrong 'type 4' 'hdr "chart.hdr" roughness 0.1 type 4' 'type must be 1 \(Beckmann\), 2 .*but 4 was given'
 wrong 'maps with a type' 'exr "maps.exr" type 2' 'This file holds maps'
 wrong 'a type out of no distribution' 'hdr "chart.hdr" type exr "maps.exr"' 'maps.exr'

@@ -117,6 +117,23 @@ static void test_continuity(int width, int height)
     pe_env_free(env);
 }
 
+/* A picture that is odd as an environment is taken, and remarked on. */
+static void test_remarks(void)
+{
+    static const char head[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X ";
+    char wide[128] = { 0 }, square[128] = { 0 };
+    pe_env *env;
+
+    snprintf(wide, sizeof wide, "%s4\n", head);
+    snprintf(square, sizeof square, "%s2\n", head);
+    ok(pe_env_read_memory(wide, strlen(wide) + 32, "wide.hdr", &env, NULL) == PE_OK, "4 x 2 texels are read");
+    ok(*pe_env_remark(env) == '\0', "twice as wide as high: no remark");
+    pe_env_free(env);
+    ok(pe_env_read_memory(square, strlen(square) + 16, "square.hdr", &env, NULL) == PE_OK, "2 x 2 texels are read");
+    ok(strstr(pe_env_remark(env), "2 x 2 texels") != NULL, "2 x 2: %s", pe_env_remark(env));
+    pe_env_free(env);
+}
+
 static void test_repairs(void)
 {
     float *rgb = reference_constant(8, 4, 0.5f);
@@ -165,6 +182,7 @@ int main(void)
     test_continuity(32, 7);
     test_continuity(5, 3);
     test_repairs();
+    test_remarks();
     test_limits();
     return done_testing();
 }
