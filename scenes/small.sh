@@ -7,8 +7,8 @@
 #   small_render NAME  NAME.png in the working folder
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
-small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f ten_lines cylinder spheres gallery fig4
-    fig6 readme surfaces view'
+small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f fig7_mask fig7a fig7b fig7c ten_lines
+    cylinder spheres gallery fig4 fig6 fig7 readme surfaces view'
 
 small_prepare()
 {
@@ -24,6 +24,8 @@ small_prepare()
     small_bake environment.exr maps.exr --paper --size 100x50
     small_bake environment.exr baseline.exr --size 100x50 --method baseline
     small_bake courtyard.exr brushed.pe.exr --alpha 0.1,0.03 --paper --size 100x50
+    ln -sf brushed.pe.exr brushed42.exr
+    small_bake environment.exr brushed.exr --alpha 0.1,0.03 --error 0.05
     small_bake studio.exr studio.pe.exr --method representative --size 64x32 --normals 12
     for alpha in 0.02 0.05 0.10 0.20 0.40; do
         small_bake courtyard.exr alpha-$alpha.pe.exr --alpha $alpha --method representative --size 64x32 --normals 12
@@ -40,6 +42,11 @@ small_prepare()
 #declare Mse_E = 5;
 #declare Mse_F = 6;
 END
+    cat >fig7_numbers.inc <<'END'
+#declare Reference7_Samples = 1;
+#declare Mse7_B = 2;
+#declare Mse7_C = 3;
+END
 }
 
 small_bake() # ENVIRONMENT MAPS OPTION...
@@ -55,12 +62,13 @@ small_render()
         bunny) size='+W128 +H128 +A0.1 +AM2 +R2 -J' ;;
         fig5a) size='+W160 +H80 -A' ;;
         fig5b | fig5c) size='+W160 +H133 +A0.1 -J' ;;
-        fig6b) size="$size Declare=Samples=1024" ;;
+        fig6b | fig7a) size="$size Declare=Samples=1024" ;;
         gallery) size='+W192 +H128 +A0.1 -J' ;;
         ten_lines) size='+W160 +H120 -A' ;;
         spheres) size='+W240 +H60 -A' ;;
         fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         fig6) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        fig7) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         readme) size='+W164 +H144 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         surfaces) size='+W235 +H235 +A0.1 +AM2 +R2 -J' ;;
         view)
@@ -85,8 +93,8 @@ small_render()
 small_bound()
 {
     case $1 in
-        fig6b) echo 0.02 ;;
-        fig6 | readme | gallery) echo 0.005 ;;
+        fig6b | fig7a) echo 0.02 ;;
+        fig6 | fig7 | readme | gallery) echo 0.005 ;;
         *) echo 0.002 ;;
     esac
 }
