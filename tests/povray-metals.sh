@@ -67,5 +67,8 @@ ok 'Turned_Steel goes around y' "$PREFENV" diff turned.exr spelt.exr --fail-abov
 sed -i 's/^#include/#declare Prefenv_Frame = transform { rotate 90*y }\n#include/' turned.pov
 render turned.pov +W32 +H32 +FE +Oframe.exr
 fails 'Prefenv_Frame turns the environment' "$PREFENV" diff turned.exr frame.exr --fail-above 0.01
+sed -i 's/^#include/#declare Prefenv_Accuracy = 0.05;\n#include/' turned.pov
+render turned.pov +W32 +H32 +FE +Oaccurate.exr
+fails 'Prefenv_Accuracy makes other maps' "$PREFENV" diff frame.exr accurate.exr --fail-above 0
 
 done_testing
