@@ -25,6 +25,8 @@ struct pe_geodesic {
     double (*vertices)[3];
     double *lengths; /* of the flat grid point under each vertex, for barycentric weights of unit vertices */
     face faces[FACES];
+    int opposite[FACES / 2][2]; /* faces whose centres are opposite, and, x by x, the first one's */
+    double centres[3][FACES / 2];
     int *grids;
 };
 
@@ -98,6 +100,20 @@ static void make_vertices(pe_geodesic *g, face *f, const double a[3], const doub
         }
 }
 
+static void pair_faces(pe_geodesic *g)
+{
+    int pairs = 0;
+
+    for (int a = 0; a < FACES; a++)
+        for (int b = a + 1; b < FACES; b++)
+            if (pe_dot(g->faces[a].centre, g->faces[b].centre) < -0.99) {
+                for (int c = 0; c < 3; c++)
+                    g->centres[c][pairs] = g->faces[a].centre[c];
+                g->opposite[pairs][0] = a;
+                g->opposite[pairs++][1] = b;
+            }
+}
+
 pe_status pe_geodesic_make(int frequency, pe_geodesic **out, pe_error *error)
 {
     size_t count = 10 * (size_t)frequency * (size_t)frequency + 2;
@@ -124,6 +140,7 @@ pe_status pe_geodesic_make(int frequency, pe_geodesic **out, pe_error *error)
         make_face(&g->faces[k], a, b, c);
         make_vertices(g, &g->faces[k], a, b, c);
     }
+    pair_faces(g);
     *out = g;
     return PE_OK;
 }
@@ -150,18 +167,17 @@ const double *pe_geodesic_vertex(const pe_geodesic *g, int index)
 
 static const face *nearest_face(const pe_geodesic *g, const double n[3])
 {
-    const face *best = g->faces;
-    double highest = -2;
+    double cosines[FACES / 2];
+    int first = 0, second = 1;
 
-    for (int k = 0; k < FACES; k++) {
-        double cosine = pe_dot(g->faces[k].centre, n);
-
-        if (cosine > highest) {
-            highest = cosine;
-            best = &g->faces[k];
-        }
+    for (int k = 0; k < FACES / 2; k++)
+        cosines[k] = g->centres[0][k] * n[0] + g->centres[1][k] * n[1] + g->centres[2][k] * n[2];
+    for (int k = 2; k < FACES / 2; k += 2) { /* two chains of comparisons at once */
+        first = fabs(cosines[k]) > fabs(cosines[first]) ? k : first;
+        second = fabs(cosines[k + 1]) > fabs(cosines[second]) ? k + 1 : second;
     }
-    return best;
+    first = fabs(cosines[second]) > fabs(cosines[first]) ? second : first;
+    return &g->faces[g->opposite[first][cosines[first] < 0]];
 }
 
 /* Corner `k` of the triangle: grid point and flat weight to vertex and weight on the unit vertices. */

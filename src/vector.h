@@ -30,9 +30,16 @@ static inline void pe_normalize(const double a[3], double out[3])
 /* The same for any length but zero, though its square be out of range. */
 static inline void pe_normalize_any(const double a[3], double out[3])
 {
-    double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
-    double tame[3] = { a[0] / largest, a[1] / largest, a[2] / largest };
+    double square = pe_dot(a, a), largest;
+    double tame[3];
 
+    if (square > 1e-250 && square < 1e250) {
+        pe_scale(1 / sqrt(square), a, out);
+        return;
+    }
+    largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    for (int c = 0; c < 3; c++)
+        tame[c] = a[c] / largest;
     pe_normalize(tame, out);
 }
 
