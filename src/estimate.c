@@ -249,6 +249,26 @@ static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_
     return status;
 }
 
+/* An environment that was shrunk has its suns in the middle of their texels; in truth they are where the maps say. */
+static void place_suns(const pe_suns *suns, pe_cloud *cloud)
+{
+    for (int k = 0; k < suns->count; k++) {
+        const double *d = suns->direction[k];
+        double nearest = -2;
+        size_t sun = 0;
+
+        for (size_t light = 0; light < cloud->count; light++) {
+            double cosine = d[0] * cloud->x[light] + d[1] * cloud->y[light] + d[2] * cloud->z[light];
+
+            sun = cosine > nearest ? light : sun;
+            nearest = fmax(nearest, cosine);
+        }
+        cloud->x[sun] = d[0];
+        cloud->y[sun] = d[1];
+        cloud->z[sun] = d[2];
+    }
+}
+
 pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error)
 {
     int is_exact = maps->info.accuracy == PE_ACCURACY_EXACT, has_lookups = maps->info.method == PE_METHOD_HEMISPHERES;
@@ -260,6 +280,7 @@ pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lo
     status = pe_cloud_from_env(env, &cloud, error);
     if (status != PE_OK)
         return status;
+    place_suns(&maps->suns, &cloud);
     if (!is_exact)
         status = estimate_texels(&cloud, maps, lobe, threads, error);
     if (status == PE_OK && has_lookups) {

@@ -4,6 +4,7 @@
 #include "env.h"
 #include "filter.h"
 #include "ndf.h"
+#include "shrink.h"
 #include "status.h"
 #include "surface.h"
 
@@ -77,18 +78,19 @@ static int count_suns(const pe_env *env, const pe_ndf *ndf, const ranking *r, do
     return r->power[PE_SUNS_MAX] < STILL_DIM * r->power[0] ? PE_SUNS_MAX : 0;
 }
 
-static void take(const pe_env *env, int texel, pe_suns *suns, float *rgb)
+static void take(const pe_env *env, const pe_env *fine, int texel, pe_suns *suns, float *rgb)
 {
     int k = suns->count++, y = texel / env->width;
 
-    pe_grid_direction(&env->grid, texel % env->width, y, suns->direction[k]);
+    pe_shrunk_direction(env, fine, texel % env->width, y, suns->direction[k]);
     for (int c = 0; c < 3; c++) {
         suns->power[k][c] = (double)rgb[3 * (size_t)texel + (size_t)c] * env->grid.solid_angle_sr[y];
         rgb[3 * (size_t)texel + (size_t)c] = 0;
     }
 }
 
-pe_status pe_suns_draw_out(const pe_env *env, const pe_surface *surface, pe_suns *suns, pe_env **rest, pe_error *error)
+pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surface *surface, pe_suns *suns,
+                           pe_env **rest, pe_error *error)
 {
     size_t bytes = 3 * (size_t)env->width * (size_t)env->height * sizeof *env->rgb;
     float *rgb = malloc(bytes);
@@ -106,7 +108,7 @@ pe_status pe_suns_draw_out(const pe_env *env, const pe_surface *surface, pe_suns
         count = count_suns(env, &surface->ndf, &r, total);
     }
     for (int k = 0; k < count; k++)
-        take(env, r.texel[k], suns, rgb);
+        take(env, fine, r.texel[k], suns, rgb);
     status = pe_env_create(env->width, env->height, rgb, rest, error);
     free(rgb);
     return status;

@@ -21,8 +21,10 @@ typedef struct pe_suns {
 int pe_suns_possible(const pe_surface *surface);
 
 /* The suns of env: none, or up to PE_SUNS_MAX texels beside which every other is dim, bright enough to matter in this
- * surface's lobe.  *rest is env with those texels black; the caller frees it. */
-pe_status pe_suns_draw_out(const pe_env *env, const pe_surface *surface, pe_suns *suns, pe_env **rest, pe_error *error);
+ * surface's lobe.  *rest is env with those texels black; the caller frees it.  fine: what env was shrunk from, which
+ * knows better where the suns are; or env. */
+pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surface *surface, pe_suns *suns,
+                           pe_env **rest, pe_error *error);
 
 /* Adds their part of Eq. 5's quotient for the viewer o of a surface of normal n, unit vectors of the world, with
  * o.n > 0: sum of power D(h) / W(o).  PE_WEIGHT_MICROFACET: of power D G2 F / (4 o.n).  direction: the brush's. */

@@ -6,7 +6,7 @@
 # From the ground up.  Rooms joined by a slash stand side by side.  A file belongs to the room that its name begins
 # with: image_png.c to image.  prefenv.h is the house, and open to all.
 rooms=(
-    status vector lanes sequence parallel file image/exr env ndf heights slopes geodesic disc/spline/atlas
+    status vector lanes sequence parallel file image/exr env/shrink ndf heights slopes geodesic disc/spline/atlas
     surface lobe filter cluster kernel denominator suns truth maps look baseline/hemispheres/pairs sample estimate
     choose bake cli
 )
