@@ -130,6 +130,7 @@ static pe_status bake_pairs_from_hemispheres(job *j, const pe_env *env, const pe
     status = bake_hemispheres(j, env, hemispheres, error);
     if (status == PE_OK)
         status = pe_fill_pairs_from_hemispheres(hemispheres, j->options->threads, NULL, j->maps);
+    j->maps->suns = hemispheres->suns; /* which are in the images; where they are matters to the estimate */
     pe_maps_free(hemispheres);
     return status;
 }
