@@ -148,10 +148,11 @@ static void test_reach(pe_ndf_kind kind, double alpha_x, double alpha_y, double 
     pe_ndf ndf = { kind, alpha_x, alpha_y, NULL };
     double reach = pe_ndf_reach(&ndf, limit), least = INFINITY, before, m = 0.99 * reach;
 
-    for (int k = 0; k < 360 && reach < INFINITY; k++)
-        for (double beyond = 1 + 1e-9; beyond < 1e6; beyond *= 1.3)
-            least = fmin(least,
-                         smallness(&ndf, beyond * reach * cos(k * M_PI / 180), beyond * reach * sin(k * M_PI / 180)));
+    for (int k = 0; k < 360 * 50 && reach < INFINITY; k++) {
+        double beyond = reach * (1 + 1e-9) * pow(1.3, k % 50), phi = 2 * M_PI * k / (360 * 50);
+
+        least = fmin(least, smallness(&ndf, beyond * cos(phi), beyond * sin(phi)));
+    }
     if (reach == INFINITY) /* nowhere so small */
         m = 1e9, least = limit;
     before = fmin(smallness(&ndf, m, 0), smallness(&ndf, 0, m));
