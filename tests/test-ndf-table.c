@@ -111,15 +111,19 @@ static void test_sampler(const pe_ndf *ndf)
             counts[y][x]++, lost--;
     }
     for (int cell = 0; cell < CELLS * CELLS; cell++) {
+        int across = cell % CELLS, down = cell / CELLS;
         double expected = 0;
 
-        for (int k = 0; k < FINE * FINE; k++)
-            expected += slope_density(ndf, -0.4 + step * (cell % CELLS + (k % FINE + 0.5) / FINE),
-                                      -0.7 + step * ((int)(cell / CELLS) + ((int)(k / FINE) + 0.5) / FINE));
+        for (int k = 0; k < FINE * FINE; k++) {
+            int i = k % FINE, j = k / FINE;
+
+            expected +=
+                slope_density(ndf, -0.4 + step * (across + (i + 0.5) / FINE), -0.7 + step * (down + (j + 0.5) / FINE));
+        }
         expected *= SAMPLES * step * step / (FINE * FINE);
         if (expected < 10)
             continue;
-        chi_square += pow(counts[cell / CELLS][cell % CELLS] - expected, 2) / expected;
+        chi_square += pow(counts[down][across] - expected, 2) / expected;
         used++;
     }
     z = (cbrt(chi_square / used) - (1 - 2.0 / (9 * used))) / sqrt(2.0 / (9 * used));
