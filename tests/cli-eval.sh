@@ -49,7 +49,9 @@ bad() # NAME LINE PATTERN; the line comes third, after a good one and a remark
 }
 
 bad "too few" "1 2 3" "3 values; six are wanted: nx ny nz ox oy oz"
-bad "too many" "1 2 3 4 5 6 7" "7 values; six are wanted"
+bad "too many" "1 2 3 4 5 6 7" "7 values; six are wanted: nx ny nz ox oy oz, or nine, with the brush direction dx dy dz"
+bad "no brush" "0 0 1 0 1 1 0 0 0" "the brush direction 0 0 0 has no direction"
+bad "a brush that is a word" "0 0 1 0 1 1 1 0 along" 'dz is "along", which is not a number'
 bad "a word" "0 0 north 0 1 1" 'nz is "north", which is not a number'
 bad "a number with a tail" "0 0 1 0.5x 1 1" 'ox is "0.5x", which is not a number'
 bad "commas" "0,0,1 0 1 1" 'nx is "0,0,1", which is not a number'

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const cli_command *const commands[] = { &bake_command,  &info_command, &eval_command,
-                                               &exact_command, &diff_command, &ndf_command, &surface_command };
+static const cli_command *const commands[] = { &bake_command, &info_command, &eval_command,   &exact_command,
+                                               &diff_command, &ndf_command,  &surface_command };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FIELDS = 6 };
+enum { FIELDS = 6, FIELDS_WITH_BRUSH = 9 };
 
-static const char *const field_names[FIELDS] = { "nx", "ny", "nz", "ox", "oy", "oz" };
+static const char *const field_names[FIELDS_WITH_BRUSH] = { "nx", "ny", "nz", "ox", "oy", "oz", "dx", "dy", "dz" };
 
 static int is_blank(char c)
 {
@@ -49,25 +49,27 @@ static int refuse_word(int field, const char *word, const char *why, char error[
     return -1;
 }
 
-static int parse_fields(const char *line, double values[FIELDS], char error[QUERY_ERROR_BYTES])
+/* Returns how many there are, or -1. */
+static int parse_fields(const char *line, double values[FIELDS_WITH_BRUSH], char error[QUERY_ERROR_BYTES])
 {
     const char *text = skip_blanks(line);
+    int count = 0;
 
-    for (int i = 0; i < FIELDS; i++) {
-        const char *end;
+    while (count < FIELDS_WITH_BRUSH && *text != '\n') {
+        const char *end = decimal_parse(text, &values[count]);
 
-        if (*text == '\n')
-            break;
-        end = decimal_parse(text, &values[i]);
         if (end == text || (*end != '\n' && !is_blank(*end)))
-            return refuse_word(i, text, "which is not a number", error);
-        if (!isfinite(values[i]))
-            return refuse_word(i, text, "which is not finite", error);
+            return refuse_word(count, text, "which is not a number", error);
+        if (!isfinite(values[count]))
+            return refuse_word(count, text, "which is not finite", error);
         text = skip_blanks(end);
-        if (i == FIELDS - 1 && *text == '\n')
-            return 0;
+        count++;
     }
-    snprintf(error, QUERY_ERROR_BYTES, "%d values; six are wanted: nx ny nz ox oy oz", words_on(line));
+    if (*text == '\n' && (count == FIELDS || count == FIELDS_WITH_BRUSH))
+        return count;
+    snprintf(error, QUERY_ERROR_BYTES,
+             "%d values; six are wanted: nx ny nz ox oy oz, or nine, with the brush direction dx dy dz",
+             words_on(line));
     return -1;
 }
 
@@ -100,8 +102,10 @@ static int format_answer(const double rgb[3], char *answer)
 int query_answer(const char *line, size_t length, query_function *function, const void *data,
                  char answer[QUERY_ANSWER_MAX], char error[QUERY_ERROR_BYTES])
 {
-    double values[FIELDS], rgb[3];
+    static const char *const names[] = { "normal", "direction to the viewer", "brush direction" };
+    double values[FIELDS_WITH_BRUSH], rgb[3];
     const char *first;
+    int count;
 
     if (length > QUERY_LINE_MAX) {
         snprintf(error, QUERY_ERROR_BYTES, "longer than %d bytes", QUERY_LINE_MAX);
@@ -110,14 +114,14 @@ int query_answer(const char *line, size_t length, query_function *function, cons
     first = skip_blanks(line);
     if (*first == '\n' || *first == '#')
         return 0;
-    if (parse_fields(line, values, error) < 0)
+    count = parse_fields(line, values, error);
+    if (count < 0)
         return -1;
-    for (int i = 0; i < FIELDS; i += 3)
+    for (int i = 0; i < count; i += 3)
         if (!tame(values + i)) {
-            snprintf(error, QUERY_ERROR_BYTES, "the %s 0 0 0 has no direction",
-                     i ? "direction to the viewer" : "normal");
+            snprintf(error, QUERY_ERROR_BYTES, "the %s 0 0 0 has no direction", names[i / 3]);
             return -1;
         }
-    function(values, values + 3, data, rgb);
+    function(values, values + 3, count == FIELDS ? NULL : values + 6, data, rgb);
     return format_answer(rgb, answer);
 }
