@@ -11,16 +11,25 @@
 #include "status.h"
 #include "suns.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
 #define AUTO_EXACT_TEXELS_MAX (128 * 64)
 
+struct pe_baker {
+    pe_bake_options options;
+    pe_maps_info info;        /* of the maps it makes, as far as the environment is not asked */
+    pe_maps_info hemispheres; /* those that are filtered: the same, or what lat-long maps are looked up in */
+    pe_lobe *lobe;
+    pe_kernel *kernel; /* NULL: they are filtered light by light */
+};
+
 /* What one bake shares. */
 typedef struct job {
-    const pe_bake_options *options;
-    const pe_env *fine; /* what the environment was shrunk from, or itself */
-    const pe_lobe *lobe;
+    const pe_baker *baker;
+    const pe_env *fine;          /* what the environment was shrunk from, or itself */
+    const pe_bake_errors *known; /* or NULL */
     pe_maps *maps;
     pe_report report;
 } job;
@@ -32,9 +41,6 @@ typedef struct job {
  * wanted on photographs: tests/test-fast.c. */
 #define CLUSTERS_PER_LOBE_AREA 0.33
 #define CLUSTERS_MIN 8.0
-
-/* Of hemispheres, which are mixed and looked up by splines, their pictures have to be better than what is wanted. */
-#define CLUSTERS_OF_HEMISPHERES 2.5
 
 static double cluster_count(const pe_ndf *ndf, double wanted)
 {
@@ -48,11 +54,9 @@ static double cluster_count(const pe_ndf *ndf, double wanted)
 static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
     double texels = (double)env->width * env->height;
-    double clusters = cluster_count(&j->maps->info.surface.ndf, pe_wanted_error(j->options));
+    double clusters = cluster_count(&j->baker->info.surface.ndf, pe_wanted_error(&j->baker->options)) * 2.5;
 
-    if (j->maps->info.method != PE_METHOD_BASELINE)
-        clusters *= CLUSTERS_OF_HEMISPHERES;
-    if (j->maps->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
+    if (j->baker->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
         return pe_cloud_from_env(env, cloud, error);
     return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
 }
@@ -61,38 +65,23 @@ static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe
  * half vectors raises that to (1 + 18 alpha^2)^2 times as much. */
 #define FAST_LIMIT 18
 
-static double reach_of(const job *j)
+static double reach_of(const pe_baker *b)
 {
-    return pe_lobe_reach(j->lobe, j->maps->info.accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
+    return pe_lobe_reach(b->lobe, b->info.accuracy == PE_ACCURACY_EXACT ? PE_LOBE_CUTOFF : FAST_LIMIT);
 }
 
 /* ---- the methods ---- */
 
-static pe_status fill_by_lights(job *j, const pe_cloud *cloud, pe_maps *maps, pe_error *error)
+static pe_status fill_hemispheres(job *j, const pe_cloud *cloud, pe_maps *maps, pe_error *error)
 {
+    const pe_baker *b = j->baker;
+
+    if (b->kernel) {
+        j->report.total = (double)(maps->info.images + PE_KERNEL_GROUP - 1) / PE_KERNEL_GROUP;
+        return pe_fill_hemispheres_by_kernel(cloud, b->lobe, b->kernel, b->options.threads, &j->report, maps, error);
+    }
     j->report.total = maps->info.images;
-    return pe_fill_hemispheres(cloud, j->lobe, reach_of(j), j->options->threads, &j->report, maps, error);
-}
-
-static pe_status fill_by_kernel(job *j, const pe_cloud *cloud, pe_maps *maps, pe_error *error)
-{
-    pe_disc cells = pe_kernel_cells(j->lobe, pe_wanted_error(j->options));
-    pe_kernel *kernel;
-    pe_status status = pe_kernel_make(j->lobe, &maps->disc, &cells, j->options->threads, &kernel, error);
-
-    if (status != PE_OK)
-        return status;
-    j->report.total = (double)(maps->info.images + PE_KERNEL_GROUP - 1) / PE_KERNEL_GROUP;
-    status = pe_fill_hemispheres_by_kernel(cloud, j->lobe, kernel, j->options->threads, &j->report, maps, error);
-    pe_kernel_free(kernel);
-    return status;
-}
-
-static int suits_kernel(const job *j, const pe_maps_info *info)
-{
-    pe_disc cells = pe_kernel_cells(j->lobe, pe_wanted_error(j->options));
-
-    return info->accuracy == PE_ACCURACY_FAST && pe_kernel_suits(j->lobe, &cells, info->width, info->height);
+    return pe_fill_hemispheres(cloud, b->lobe, reach_of(b), b->options.threads, &j->report, maps, error);
 }
 
 static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
@@ -105,36 +94,25 @@ static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_e
         return status;
     status = make_cloud(j, rest, &cloud, error);
     if (status == PE_OK) {
-        status = suits_kernel(j, &maps->info) ? fill_by_kernel(j, &cloud, maps, error)
-                                              : fill_by_lights(j, &cloud, maps, error);
+        status = fill_hemispheres(j, &cloud, maps, error);
         pe_cloud_free(&cloud);
     }
     pe_env_free(rest);
     if (status == PE_OK)
-        status = pe_maps_finish(maps, j->options->threads, error);
+        status = pe_maps_finish(maps, j->baker->options.threads, error);
     return status;
 }
 
-/* The hemispheres that pairs can be looked up in. */
-static pe_maps_info hemispheres_for(const pe_maps_info *pairs)
-{
-    pe_maps_info info = *pairs;
-
-    info.method = PE_METHOD_HEMISPHERES;
-    pe_choose_fine_size(&info.surface.ndf, &info.width, &info.height);
-    return info;
-}
-
-static pe_status bake_pairs_from_hemispheres(job *j, const pe_env *env, const pe_maps_info *info, pe_error *error)
+static pe_status bake_pairs_from_hemispheres(job *j, const pe_env *env, pe_error *error)
 {
     pe_maps *hemispheres;
-    pe_status status = pe_maps_create(info, &hemispheres, error);
+    pe_status status = pe_maps_create(&j->baker->hemispheres, &hemispheres, error);
 
     if (status != PE_OK)
         return status;
     status = bake_hemispheres(j, env, hemispheres, error);
     if (status == PE_OK)
-        status = pe_fill_pairs_from_hemispheres(hemispheres, j->options->threads, NULL, j->maps);
+        status = pe_fill_pairs_from_hemispheres(hemispheres, j->baker->options.threads, NULL, j->maps);
     j->maps->suns = hemispheres->suns; /* which are in the images; where they are matters to the estimate */
     pe_maps_free(hemispheres);
     return status;
@@ -148,7 +126,8 @@ static pe_status bake_pairs_from_lights(job *j, const pe_env *env, pe_error *err
     if (status != PE_OK)
         return status;
     j->report.total = (double)j->maps->info.images * j->maps->info.height;
-    status = pe_fill_pairs(&cloud, j->lobe, reach_of(j), j->options->threads, &j->report, j->maps, error);
+    status = pe_fill_pairs(&cloud, j->baker->lobe, reach_of(j->baker), j->baker->options.threads, &j->report, j->maps,
+                           error);
     pe_cloud_free(&cloud);
     return status;
 }
@@ -156,10 +135,7 @@ static pe_status bake_pairs_from_lights(job *j, const pe_env *env, pe_error *err
 /* By way of hemispheres, if these can be filtered by a kernel. */
 static pe_status bake_pairs(job *j, const pe_env *env, pe_error *error)
 {
-    pe_maps_info hemispheres = hemispheres_for(&j->maps->info);
-
-    return suits_kernel(j, &hemispheres) ? bake_pairs_from_hemispheres(j, env, &hemispheres, error)
-                                         : bake_pairs_from_lights(j, env, error);
+    return j->baker->kernel ? bake_pairs_from_hemispheres(j, env, error) : bake_pairs_from_lights(j, env, error);
 }
 
 static pe_status bake_baseline(job *j, const pe_env *env, pe_error *error)
@@ -171,14 +147,25 @@ static pe_status bake_baseline(job *j, const pe_env *env, pe_error *error)
 
     if (status != PE_OK)
         return status;
-    status = pe_head_on_make(&cloud, j->lobe, info->direction, reach_of(j), &head_on, error);
+    status = pe_head_on_make(&cloud, j->baker->lobe, info->direction, reach_of(j->baker), &head_on, error);
     if (status == PE_OK) {
         j->report.total = info->height;
-        status = pe_baseline_fill(head_on, j->maps, j->options->threads, &j->report, error);
+        status = pe_baseline_fill(head_on, j->maps, j->baker->options.threads, &j->report, error);
         pe_head_on_free(head_on);
     }
     pe_cloud_free(&cloud);
     return status;
+}
+
+static pe_status record_errors(job *j, const pe_env *env, pe_error *error)
+{
+    pe_maps_info *info = &j->maps->info;
+
+    if (!j->known)
+        return pe_estimate_errors(env, j->maps, j->baker->lobe, j->baker->options.threads, error);
+    info->error_estimate = j->known->texels;
+    info->lookup_error = j->known->lookups;
+    return PE_OK;
 }
 
 static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
@@ -197,19 +184,11 @@ static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
         status = bake_baseline(j, env, error);
         break;
     }
-    if (status == PE_OK)
-        status = pe_estimate_errors(env, j->maps, j->lobe, j->options->threads, error);
-    if (status == PE_ERROR_CANCELLED)
-        pe_fail(error, status, "cancelled");
-    return status;
+    return status == PE_OK ? record_errors(j, env, error) : status;
 }
 
 /* Texels this narrow beside the lobe's finest feature lie as well in the middle of four. */
 #define FINEST_TEXEL 0.0625
-
-/* A small sun on the horizon of a texel seen head on, where no suns are drawn out, has to keep its place beside a lobe
- * however wide. */
-#define FINENESS_OF_BASELINE 0.1
 
 /* Fast bakes are the same for however fine an environment. */
 static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
@@ -219,8 +198,6 @@ static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
     pe_status status;
 
     pe_ndf_fineness(&j->maps->info.surface.ndf, fineness);
-    if (j->maps->info.method == PE_METHOD_BASELINE)
-        fineness[0] = fmin(fineness[0], FINENESS_OF_BASELINE);
     status = pe_env_shrink(j->fine, FINEST_TEXEL * fmin(fineness[0], fineness[1]), &shrunk, error);
     if (status != PE_OK)
         return status;
@@ -229,13 +206,13 @@ static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
     return status;
 }
 
-/* ---- the whole ---- */
+/* ---- what does not depend on the environment ---- */
 
-static pe_accuracy choose_accuracy(pe_accuracy asked, const pe_env *env)
+static pe_accuracy choose_accuracy(pe_accuracy asked, int width, int height)
 {
     if (asked != PE_ACCURACY_AUTO)
         return asked;
-    return (size_t)env->width * (size_t)env->height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
+    return (size_t)width * (size_t)height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
 }
 
 static void choose_alphas(pe_maps_info *info)
@@ -254,7 +231,7 @@ static void choose_alphas(pe_maps_info *info)
     }
 }
 
-static pe_status choose_info(const pe_env *env, const pe_bake_options *options, pe_maps_info *info, pe_error *error)
+static pe_status choose_info(const pe_bake_options *options, int width, int height, pe_maps_info *info, pe_error *error)
 {
     static const double plus_y[3] = { 0, 1, 0 };
     const double *d = options->direction;
@@ -266,23 +243,23 @@ static pe_status choose_info(const pe_env *env, const pe_bake_options *options, 
                             .angles = options->angles ? options->angles : 1,
                             .width = options->width,
                             .height = options->height,
-                            .source_name = env->name,
-                            .source_width = env->width,
-                            .source_height = env->height,
-                            .accuracy = choose_accuracy(options->accuracy, env) };
+                            .source_name = "",
+                            .ndf_name = "",
+                            .source_width = width,
+                            .source_height = height,
+                            .accuracy = choose_accuracy(options->accuracy, width, height),
+                            .error_wanted = pe_wanted_error(options) };
     choose_alphas(info);
     status = pe_surface_check(&info->surface, error);
     if (status != PE_OK)
         return status;
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
-    if (info->method == PE_METHOD_HEMISPHERES) {
-        pe_choose_hemispheres(env, options, info);
-        return PE_OK;
-    }
+    if (info->method == PE_METHOD_HEMISPHERES)
+        pe_choose_hemispheres(options, info);
     info->normals = info->normals ? info->normals : 42;
     info->width = info->width ? info->width : 400;
     info->height = info->height ? info->height : 200;
-    return PE_OK;
+    return pe_maps_complete_info(info, error);
 }
 
 static pe_status check_error(double wanted, pe_error *error)
@@ -292,29 +269,118 @@ static pe_status check_error(double wanted, pe_error *error)
     return pe_fail(error, PE_ERROR_ARGUMENT, "error %g is out of range; it lies between 0.0005 and 0.1", wanted);
 }
 
-pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **out, pe_error *error)
+static pe_maps_info hemispheres_for(const pe_maps_info *wanted)
 {
-    pe_maps_info info;
-    pe_lobe *lobe = NULL;
-    job j = { .options = options, .report = { options->progress, options->progress_data, 0, 1 } };
-    pe_status status = check_error(options->error, error);
+    pe_maps_info info = *wanted;
+
+    if (wanted->method == PE_METHOD_HEMISPHERES)
+        return info;
+    info.method = PE_METHOD_HEMISPHERES;
+    pe_choose_fine_size(&info.surface.ndf, &info.width, &info.height);
+    return info;
+}
+
+/* Leaves kernel NULL where none is of use. */
+static pe_status make_kernel(pe_baker *b, pe_error *error)
+{
+    const pe_maps_info *info = &b->hemispheres;
+    pe_disc map = { info->width, info->height }, cells = pe_kernel_cells(b->lobe, pe_wanted_error(&b->options));
+
+    if (b->info.method == PE_METHOD_BASELINE || info->accuracy != PE_ACCURACY_FAST ||
+        !pe_kernel_suits(b->lobe, &cells, info->width, info->height))
+        return PE_OK;
+    return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &b->kernel, error);
+}
+
+static pe_status prepare(pe_baker *b, int width, int height, pe_error *error)
+{
+    pe_status status = check_error(b->options.error, error);
 
     if (status == PE_OK)
-        status = choose_info(env, options, &info, error);
+        status = choose_info(&b->options, width, height, &b->info, error);
+    if (status != PE_OK)
+        return status;
+    b->hemispheres = hemispheres_for(&b->info);
+    status = pe_lobe_make(&b->info.surface, b->options.threads, &b->lobe, error);
+    return status == PE_OK ? make_kernel(b, error) : status;
+}
+
+pe_status pe_baker_make(const pe_bake_options *options, int width, int height, pe_baker **out, pe_error *error)
+{
+    pe_baker *b = calloc(1, sizeof *b);
+    pe_status status;
+
+    if (!b) {
+        pe_fail_memory(error, "a baker");
+        return PE_ERROR_MEMORY;
+    }
+    b->options = *options;
+    status = prepare(b, width, height, error);
+    if (status == PE_OK)
+        *out = b;
+    else
+        pe_baker_free(b);
+    return status;
+}
+
+void pe_baker_free(pe_baker *b)
+{
+    if (!b)
+        return;
+    pe_kernel_free(b->kernel);
+    pe_lobe_free(b->lobe);
+    free(b);
+}
+
+const pe_maps_info *pe_baker_get_info(const pe_baker *b)
+{
+    return &b->info;
+}
+
+/* ---- the whole ---- */
+
+static pe_status check_size(const pe_baker *b, const pe_env *env, pe_error *error)
+{
+    if (env->width == b->info.source_width && env->height == b->info.source_height)
+        return PE_OK;
+    return pe_fail(error, PE_ERROR_ARGUMENT, "%s: has %d x %d texels where %d x %d are expected, as the first has",
+                   *env->name ? env->name : "the environment", env->width, env->height, b->info.source_width,
+                   b->info.source_height);
+}
+
+pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_errors *known, pe_maps **out,
+                        pe_error *error)
+{
+    pe_maps_info info = b->info;
+    job j = {
+        .baker = b, .fine = env, .known = known, .report = { b->options.progress, b->options.progress_data, 0, 1 }
+    };
+    pe_status status = check_size(b, env, error);
+
+    info.source_name = env->name;
     if (status == PE_OK)
         status = pe_maps_create(&info, &j.maps, error);
     if (status != PE_OK)
         return status;
-    status = pe_lobe_make(&info.surface, options->threads, &lobe, error);
-    j.lobe = lobe;
-    j.fine = env;
-    if (status == PE_OK)
-        status = info.accuracy == PE_ACCURACY_FAST ? fill_maps_from_shrunk(&j, error) : fill_maps(&j, env, error);
-    pe_lobe_free(lobe);
+    status = info.accuracy == PE_ACCURACY_FAST ? fill_maps_from_shrunk(&j, error) : fill_maps(&j, env, error);
+    if (status == PE_ERROR_CANCELLED)
+        pe_fail(error, status, "cancelled");
     j.maps->info.surface.ndf.table = NULL; /* the caller's, who may free it */
     if (status == PE_OK)
         *out = j.maps;
     else
         pe_maps_free(j.maps);
+    return status;
+}
+
+pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
+{
+    pe_baker *baker;
+    pe_status status = pe_baker_make(options, env->width, env->height, &baker, error);
+
+    if (status != PE_OK)
+        return status;
+    status = pe_baker_bake(baker, env, NULL, maps, error);
+    pe_baker_free(baker);
     return status;
 }

@@ -46,10 +46,10 @@ typedef struct plan {
     double bytes, error;
 } plan;
 
-static plan make_plan(const pe_env *env, const pe_maps_info *info, int frequency, double pitch)
+static plan make_plan(const pe_maps_info *info, int frequency, double pitch)
 {
     /* A hemisphere this wide has the environment's own resolution in its middle. */
-    int most = (int)(2 * M_SQRT2 / M_PI * env->height + 2 * PE_DISC_MARGIN);
+    int most = (int)(2 * M_SQRT2 / M_PI * info->source_height + 2 * PE_DISC_MARGIN);
     plan p = { .frequency = frequency };
     double fineness[2];
 
@@ -74,17 +74,17 @@ static int is_better(const plan *a, const plan *b, double wanted, double budget)
     return a->error < b->error;
 }
 
-void pe_choose_hemispheres(const pe_env *env, const pe_bake_options *options, pe_maps_info *info)
+void pe_choose_hemispheres(const pe_bake_options *options, pe_maps_info *info)
 {
     double wanted = pe_wanted_error(options),
            budget = budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
     int given = pe_geodesic_frequency(info->normals);
-    plan best = make_plan(env, info, given ? given : 2, PITCH_MAX);
+    plan best = make_plan(info, given ? given : 2, PITCH_MAX);
 
     for (int f = given ? given : 2; f <= (given ? given : PE_FREQUENCY_MAX); f++)
         for (int step = 0; step <= PITCH_STEPS; step++) {
             double pitch = PITCH_MAX * pow(PITCH_MIN / PITCH_MAX, (double)step / PITCH_STEPS);
-            plan p = make_plan(env, info, f, pitch);
+            plan p = make_plan(info, f, pitch);
 
             if (is_better(&p, &best, wanted, budget))
                 best = p;

@@ -101,7 +101,7 @@ static void count_images(pe_maps_info *info)
     }
 }
 
-static pe_status check_info(pe_maps_info *info, pe_error *error)
+pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
 {
     pe_status status = check_surface(&info->surface, error);
 
@@ -145,7 +145,7 @@ static pe_status allocate(pe_maps *maps, const char *source_name, const char *nd
 pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *error)
 {
     pe_maps_info checked = *info;
-    pe_status status = check_info(&checked, error);
+    pe_status status = pe_maps_complete_info(&checked, error);
     pe_maps *maps;
 
     if (status != PE_OK)

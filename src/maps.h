@@ -31,8 +31,10 @@ struct pe_maps {
     pe_denominator *denominator; /* NULL where there are no suns */
 };
 
-/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images; allocates the
- * images. */
+/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images. */
+pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error);
+
+/* Does that and allocates the images. */
 pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *error);
 
 /* To be called when the images and the suns are there and before anything is looked up. */

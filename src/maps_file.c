@@ -4,8 +4,8 @@
  * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
  * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
- * :accuracy, :errorEstimate; of hemispheres :angles, :width, :height, :lookupError, :suns, and for each sun
- * :sun.00.direction and :sun.00.power. */
+ * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
+ * :lookupError, :suns, and for each sun :sun.00.direction and :sun.00.power. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"
@@ -23,7 +23,7 @@ static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
-#define ATTRIBUTES 16
+#define ATTRIBUTES 17
 #define HEMISPHERE_ATTRIBUTES 5
 #define SUN_NAME_MAX 40
 
@@ -68,6 +68,7 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
         integer("prefenv:sourceHeight", info->source_height),
         string("prefenv:accuracy", accuracy_names[info->accuracy]),
         number("prefenv:errorEstimate", info->error_estimate),
+        number("prefenv:errorWanted", info->error_wanted),
     };
 
     memcpy(out, all, sizeof all);
@@ -356,6 +357,7 @@ static pe_status read_sun(const header *from, int k, pe_suns *suns)
 static pe_status read_info(const header *from, pe_maps_info *info)
 {
     pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
+    pe_attribute wanted = number("prefenv:errorWanted", 0);
     int method = 0, weight = 0, kind = 0, accuracy = 0;
     pe_status status = check_version(from);
 
@@ -381,6 +383,8 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     info->accuracy = (pe_accuracy)accuracy;
     pe_exr_get_attribute(from->file, 0, &source);
     pe_exr_get_attribute(from->file, 0, &ndf_name);
+    if (pe_exr_get_attribute(from->file, 0, &wanted) && isfinite(wanted.number))
+        info->error_wanted = wanted.number;
     info->source_name = source.string;
     info->ndf_name = ndf_name.string;
     return method == PE_METHOD_DEFAULT ? missing(from, "prefenv:method") : read_hemispheres_info(from, info);

@@ -392,11 +392,33 @@ typedef struct pe_maps_info {
     int source_width, source_height;
     pe_accuracy accuracy;  /* EXACT or FAST */
     double error_estimate; /* relative L2 error of the texels against Eq. 5 where n.r > 0.15; 0 for exact */
+    double error_wanted;   /* of the options, or what their quality means; 0: a file that does not tell */
     double lookup_error;   /* the same of linear lookups for normals and views of every kind, against pe_exact; 0 for
                               lat-long maps: not measured */
 } pe_maps_info;
 
 const pe_maps_info *pe_maps_get_info(const pe_maps *maps);
+
+/* Many environments of one size, baked alike, one after the other: what does not depend on them is made once.
+ *
+ * pe_baker_make checks the options and decides what they leave open, for environments of this size.  A table that they
+ * name, and their progress_data, must outlive the baker. */
+typedef struct pe_baker pe_baker;
+pe_status pe_baker_make(const pe_bake_options *options, int width, int height, pe_baker **baker, pe_error *error);
+void pe_baker_free(pe_baker *baker); /* NULL is allowed */
+
+/* What its maps will say of themselves, but for source_name, suns and errors. */
+const pe_maps_info *pe_baker_get_info(const pe_baker *baker);
+
+/* What maps record as error_estimate and lookup_error. */
+typedef struct pe_bake_errors {
+    double texels, lookups;
+} pe_bake_errors;
+
+/* The maps that pe_bake makes of env.  errors: NULL, and they are estimated; or those to be recorded instead, such as
+ * the ones of an environment much like it. */
+pe_status pe_baker_bake(const pe_baker *baker, const pe_env *env, const pe_bake_errors *errors, pe_maps **maps,
+                        pe_error *error);
 
 /* Image k, 3 * width * height floats.
  * Hemispheres: that of the normal n_k/angles with its brush turned by k % angles; src/disc.h says which texel looks
