@@ -55,8 +55,8 @@ options_of()
 }
 
 is "$(options_of bake)" \
-    "alpha angles direction error exact fast float help ior json k material method ndf normals output paper quality \
-quiet size threads weight " \
+    "alpha angles direction error exact fast float force frames help ior json k material method ndf normals output \
+paper quality quiet shard size threads weight " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"

@@ -1,13 +1,17 @@
-/* bake.c - `prefenv bake`: an environment image to a maps file. */
+/* bake.c - `prefenv bake`: an environment image to a maps file, or a sequence of them. */
+#include "batch.h"
 #include "cli.h"
 #include "commands.h"
 #include "describe.h"
-#include "interrupt.h"
+#include "frames.h"
 #include "prefenv.h"
 #include "progress.h"
 #include "reflectance.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #define NORMALS_MIN 12    /* 10 f^2 + 2 for f = 1 */
@@ -21,6 +25,8 @@ typedef struct bake_settings {
     int paper, normals, angles, size[2], quality;
     double error;
     int exact, fast, floats;
+    const char *frames, *shard;
+    int force;
     int threads, json, quiet;
 } bake_settings;
 
@@ -75,6 +81,13 @@ static const cli_option options[] = {
       "gather texels in clusters; the error is estimated and recorded" },
     { "float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
       "store 32-bit floats, not half floats" },
+    { "frames", 0, "FIRST-LAST", CLI_TEXT, offsetof(bake_settings, frames), 0, 0, NULL, NULL, 0,
+      "bake a sequence: ENV and MAPS have a %d or %04d in their names, which these numbers take the place of; frames "
+      "made before are left alone" },
+    { "shard", 0, "I/N", CLI_TEXT, offsetof(bake_settings, shard), 0, 0, NULL, NULL, 0,
+      "of --frames, only every N-th from the I-th on: one of N machines' share" },
+    { "force", 0, NULL, CLI_SWITCH, offsetof(bake_settings, force), 0, 0, NULL, NULL, 0,
+      "of --frames, make those anew that were made before" },
     CLI_OPTION_THREADS(bake_settings),
     CLI_OPTION_JSON(bake_settings),
     CLI_OPTION_QUIET(bake_settings),
@@ -83,8 +96,6 @@ static const cli_option options[] = {
 
 static int check_settings(const bake_settings *settings)
 {
-    const char *inputs[] = { settings->environment, NULL };
-
     if (settings->exact && settings->fast) {
         cli_error("bake", "--exact and --fast exclude each other; give one of them");
         return CLI_FAILURE;
@@ -93,21 +104,16 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "--paper is --method representative; give one of them");
         return CLI_FAILURE;
     }
-    return cli_check_output("bake", settings->output, inputs);
+    if (!settings->frames && (settings->shard || settings->force)) {
+        cli_error("bake", "%s is for sequences; give --frames, too", settings->shard ? "--shard" : "--force");
+        return CLI_FAILURE;
+    }
+    return CLI_SUCCESS;
 }
 
-static int draw_progress(double fraction, void *data)
+static void set_options(const bake_settings *settings, const pe_surface *surface, pe_bake_options *out)
 {
-    progress_draw(data, fraction);
-    return 0;
-}
-
-static pe_status bake_maps(const bake_settings *settings, const pe_surface *surface, const pe_env *env, pe_maps **maps,
-                           pe_error *error)
-{
-    progress bar;
-    pe_status status;
-    pe_bake_options bake = {
+    *out = (pe_bake_options){
         .method = settings->paper ? PE_METHOD_REPRESENTATIVE : (pe_method)settings->method,
         .surface = *surface,
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
@@ -121,29 +127,10 @@ static pe_status bake_maps(const bake_settings *settings, const pe_surface *surf
                     : settings->fast ? PE_ACCURACY_FAST
                                      : PE_ACCURACY_AUTO,
         .threads = settings->threads,
-        .progress = progress_is_visible() && !settings->quiet ? draw_progress : NULL,
-        .progress_data = &bar,
     };
-
-    progress_begin(&bar);
-    status = pe_bake(env, &bake, maps, error);
-    progress_clear(&bar);
-    return status;
 }
 
-/* Half floats unless floats are asked for or needed: a bake that took minutes is not thrown away for a bright sun. */
-static pe_status write_maps(const bake_settings *settings, const pe_maps *maps, pe_error *error)
-{
-    pe_pixel_type pixels = settings->floats ? PE_PIXEL_FLOAT : PE_PIXEL_HALF;
-    pe_status status = pe_maps_write(maps, settings->output, pixels, error);
-
-    if (settings->floats || status != PE_ERROR_LIMIT)
-        return status;
-    status = pe_maps_write(maps, settings->output, PE_PIXEL_FLOAT, error);
-    if (status == PE_OK && !settings->quiet)
-        cli_warning("bake", "brighter than half floats can hold (65504): written as with --float");
-    return status;
-}
+/* ---- one ---- */
 
 static void print_summary(const bake_settings *settings, const pe_maps *maps, double seconds)
 {
@@ -170,54 +157,138 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
             info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy);
 }
 
-/* Bakes and writes; on success *maps is the caller's. */
-static pe_status bake_file(const bake_settings *settings, const pe_surface *surface, pe_maps **maps, pe_error *error)
+static int bake_one(const bake_settings *settings, batch *b, double begun)
 {
-    pe_env *env;
-    pe_status status = cli_read_environment(settings->environment, &env, error);
+    const char *inputs[] = { settings->environment, NULL };
+    int result;
 
-    if (status != PE_OK)
-        return status;
-    if (!settings->quiet)
-        cli_warn_of_flaws("bake", settings->environment, env);
-    status = bake_maps(settings, surface, env, maps, error);
-    pe_env_free(env);
-    if (status != PE_OK)
-        return status;
-    interrupt_hold(settings->output);
-    status = write_maps(settings, *maps, error);
-    interrupt_release();
-    if (status != PE_OK)
-        pe_maps_free(*maps);
-    return status;
+    if (cli_check_output("bake", settings->output, inputs) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    b->count = 1;
+    result = batch_make(b, settings->environment, settings->output);
+    batch_end(b);
+    if (result == CLI_SUCCESS)
+        print_summary(settings, b->maps, clock_seconds() - begun);
+    return result;
+}
+
+/* ---- a sequence ---- */
+
+typedef int frame_task(const bake_settings *settings, const char *environment, const char *output, batch *b);
+
+static int for_each_frame(const bake_settings *settings, const frames *f, frame_task *task, batch *b)
+{
+    int result = CLI_SUCCESS;
+
+    for (int frame = f->first; frame <= f->last && result == CLI_SUCCESS; frame += f->step) {
+        char *environment = frames_name(settings->environment, frame), *output = frames_name(settings->output, frame);
+
+        result = CLI_FAILURE;
+        if (environment && output)
+            result = task(settings, environment, output, b);
+        else
+            cli_error("bake", "out of memory");
+        free(environment);
+        free(output);
+    }
+    return result;
+}
+
+/* Before hours of work: is every frame there, and can it be written? */
+static int check_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
+{
+    const char *inputs[] = { environment, NULL };
+    struct stat about;
+
+    (void)b;
+    if (stat(environment, &about) == 0)
+        return cli_check_output("bake", output, inputs);
+    cli_error("bake", "%s: %s; --frames %s needs it", environment, strerror(errno), settings->frames);
+    return CLI_FAILURE;
+}
+
+static int bake_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
+{
+    return settings->force ? batch_make(b, environment, output) : batch_update(b, environment, output);
+}
+
+static void print_sequence_json(const bake_settings *settings, const batch *b, double seconds)
+{
+    json out = { 0 };
+
+    json_open(&out, NULL);
+    json_text(&out, "file", settings->output);
+    json_integer(&out, "frames", b->count);
+    json_integer(&out, "made", b->made);
+    json_integer(&out, "left", b->left);
+    json_number(&out, "seconds", seconds);
+    if (b->maps)
+        describe_maps_json(&out, pe_maps_get_info(b->maps));
+    json_close(&out);
+}
+
+static void print_sequence(const bake_settings *settings, const batch *b, double seconds)
+{
+    char accuracy[DESCRIBE_BYTES];
+
+    if (settings->json) {
+        print_sequence_json(settings, b, seconds);
+        return;
+    }
+    if (settings->quiet)
+        return;
+    fprintf(stderr, "%s: %d of %d frames made, %d left as they were, in %.1f s", settings->output, b->made, b->count,
+            b->left, seconds);
+    if (b->maps) {
+        const pe_maps_info *info = pe_maps_get_info(b->maps);
+
+        describe_accuracy(info, accuracy);
+        fprintf(stderr, "; %d %s of %dx%d each, %s", info->images, info->images == 1 ? "map" : "maps", info->width,
+                info->height, accuracy);
+    }
+    fprintf(stderr, "\n");
+}
+
+static int bake_sequence(const bake_settings *settings, batch *b, double begun)
+{
+    int result;
+    frames f;
+
+    if (frames_parse("bake", settings->frames, settings->shard, &f) != CLI_SUCCESS ||
+        frames_check_pattern("bake", settings->environment) != CLI_SUCCESS ||
+        frames_check_pattern("bake", settings->output) != CLI_SUCCESS ||
+        for_each_frame(settings, &f, check_frame, b) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    b->count = frames_count(&f);
+    result = for_each_frame(settings, &f, bake_frame, b);
+    batch_end(b);
+    if (result == CLI_SUCCESS)
+        print_sequence(settings, b, clock_seconds() - begun);
+    return result;
 }
 
 static int bake_run(int argc, char **argv)
 {
     bake_settings settings = { 0 };
     double begun = clock_seconds();
+    batch b = { 0 };
     pe_surface surface;
     pe_ndf_table *table;
-    pe_maps *maps;
-    pe_error error;
-    pe_status status;
-    int proceed = cli_parse(&bake_command, argc, argv, &settings);
+    int result = cli_parse(&bake_command, argc, argv, &settings);
 
-    if (proceed != CLI_PROCEED)
-        return proceed;
-    if (check_settings(&settings) != CLI_SUCCESS)
+    if (result != CLI_PROCEED)
+        return result;
+    if (check_settings(&settings) != CLI_SUCCESS ||
+        cli_make_surface("bake", &settings.surface, &surface, &table) != CLI_SUCCESS)
         return CLI_FAILURE;
-    if (cli_make_surface("bake", &settings.surface, &surface, &table) != CLI_SUCCESS)
-        return CLI_FAILURE;
-    status = bake_file(&settings, &surface, &maps, &error);
+    set_options(&settings, &surface, &b.options);
+    b.measured = table ? settings.surface.ndf : NULL;
+    b.pixels = settings.floats ? PE_PIXEL_FLOAT : PE_PIXEL_HALF;
+    b.quiet = settings.quiet;
+    result = settings.frames ? bake_sequence(&settings, &b, begun) : bake_one(&settings, &b, begun);
+    batch_free(&b);
     pe_ndf_table_free(table);
-    if (status != PE_OK) {
-        cli_error("bake", "%s", error.message);
-        return CLI_FAILURE;
-    }
-    print_summary(&settings, maps, clock_seconds() - begun);
-    pe_maps_free(maps);
-    return cli_flush("bake");
+    return result == CLI_SUCCESS ? cli_flush("bake") : result;
 }
 
 const cli_command bake_command = {

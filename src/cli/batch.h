@@ -1,0 +1,38 @@
+/* batch.h - environments, one after the other, to maps files; what they share is made once. */
+#ifndef CLI_BATCH_H
+#define CLI_BATCH_H
+
+#include "prefenv.h"
+#include "progress.h"
+
+typedef struct batch {
+    /* to be set */
+    pe_bake_options options; /* without progress */
+    const char *measured;    /* the file of options.surface's table, or NULL */
+    pe_pixel_type pixels;
+    int quiet;
+    int count; /* of files that will be asked for */
+
+    /* what became of it */
+    int made, left;
+    pe_maps *maps;         /* those made last, or NULL */
+    pe_bake_errors errors; /* the greatest estimated so far: what maps record that are not looked at themselves */
+
+    pe_baker *baker; /* for the size of the first environment */
+    progress bar;
+} batch;
+
+/* Reads, bakes, writes; the output's name was checked.  CLI_FAILURE, with its error printed, if something cannot be
+ * done. */
+int batch_make(batch *b, const char *environment, const char *output);
+
+/* The same, but leaves alone an output that is whole, says of itself what a new one would and is not older than what it
+ * is made from. */
+int batch_update(batch *b, const char *environment, const char *output);
+
+/* Wipes the progress bar away. */
+void batch_end(batch *b);
+
+void batch_free(batch *b); /* frees what it made, not the struct */
+
+#endif
