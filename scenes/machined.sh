@@ -1,13 +1,13 @@
 # machined.sh - the four surfaces of surfaces.pov; read after common.sh by surfaces.sh and small.sh.
 #
-#   machined_kinds                    their names
-#   machined_measure KIND [OPTION...] KIND.heights.exr, its distribution KIND.ndf.exr, and KIND.plot.exr for the picture,
-#                                     in the working folder; the options are those of `prefenv surface`
+#   machined_kinds                     their names
+#   machined_measure KIND [OPTION...]  into the working folder KIND.heights.exr, its distribution KIND.ndf.exr, and
+#                                      KIND.plot.exr for the picture; the options are those of `prefenv surface`
 
 machined_kinds='turned milled blasted brushed'
 
-# The two with grooves are a little rougher than they would be by themselves: a finer lobe along the grooves takes longer
-# to bake and shows no more.
+# The two with grooves are a little rougher than they would be by themselves: a finer lobe along the grooves takes
+# longer to bake and shows no more.
 machined_measure()
 {
     local kind=$1 roughness=

@@ -42,6 +42,9 @@ typedef struct job {
 #define CLUSTERS_PER_LOBE_AREA 0.33
 #define CLUSTERS_MIN 8.0
 
+/* Of hemispheres, which are mixed and looked up by splines, their pictures have to be better than what is wanted. */
+#define CLUSTERS_OF_HEMISPHERES 2.5
+
 static double cluster_count(const pe_ndf *ndf, double wanted)
 {
     double width[2];
@@ -54,8 +57,10 @@ static double cluster_count(const pe_ndf *ndf, double wanted)
 static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
     double texels = (double)env->width * env->height;
-    double clusters = cluster_count(&j->baker->info.surface.ndf, pe_wanted_error(&j->baker->options)) * 2.5;
+    double clusters = cluster_count(&j->baker->info.surface.ndf, pe_wanted_error(&j->baker->options));
 
+    if (j->baker->info.method != PE_METHOD_BASELINE)
+        clusters *= CLUSTERS_OF_HEMISPHERES;
     if (j->baker->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
         return pe_cloud_from_env(env, cloud, error);
     return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
@@ -190,6 +195,10 @@ static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
 /* Texels this narrow beside the lobe's finest feature lie as well in the middle of four. */
 #define FINEST_TEXEL 0.0625
 
+/* A small sun on the horizon of a texel seen head on, where no suns are drawn out, has to keep its place beside a lobe
+ * however wide. */
+#define FINENESS_OF_BASELINE 0.1
+
 /* Fast bakes are the same for however fine an environment. */
 static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
 {
@@ -198,6 +207,8 @@ static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
     pe_status status;
 
     pe_ndf_fineness(&j->maps->info.surface.ndf, fineness);
+    if (j->maps->info.method == PE_METHOD_BASELINE)
+        fineness[0] = fmin(fineness[0], FINENESS_OF_BASELINE);
     status = pe_env_shrink(j->fine, FINEST_TEXEL * fmin(fineness[0], fineness[1]), &shrunk, error);
     if (status != PE_OK)
         return status;

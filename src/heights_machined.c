@@ -3,9 +3,9 @@
  * TURNED.  A tool with a round nose of radius R leaves a groove at every feed f.  Near its bottom the circle is the
  * parabola z = y^2 / 2R, whose slope y / R is spread evenly over +-f / 2R.  Height: f^2 / 8R.
  * MILLED.  Straight flanks of slope s, f / 2 wide each: slopes are s or -s.  Height: s f / 2.
- * BLASTED, BRUSHED, and the roughness over the grooves: white noise blurred with a Gaussian of standard deviation l / 2.
- * Its autocorrelation is exp(-(r / l)^2), so with a root mean square height of w the mean square of the slope is
- * 2 w^2 / l^2 along each axis: Beckmann's distribution with alpha = sqrt 2 rms slope = 2 w / l [Beckmann].
+ * BLASTED, BRUSHED, and the roughness over the grooves: white noise blurred with a Gaussian of standard deviation
+ * l / 2.  Its autocorrelation is exp(-(r / l)^2), so with a root mean square height of w the mean square of the slope
+ * is 2 w^2 / l^2 along each axis: Beckmann's distribution with alpha = sqrt 2 rms slope = 2 w / l [Beckmann].
  * The field repeats itself: the feed is rounded so that a whole number of grooves fits. */
 #include "status.h"
 

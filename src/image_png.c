@@ -1,5 +1,5 @@
-/* image_png.c - PNG by libpng: 8 and 16 bit, sRGB or the file's own gamma made linear, or the values as they are stored;
- * 8-bit sRGB written. */
+/* image_png.c - PNG by libpng: 8 and 16 bit, sRGB or the file's own gamma made linear, or the values as they are
+ * stored; 8-bit sRGB written. */
 #include "image.h"
 #include "status.h"
 

@@ -19,6 +19,7 @@ typedef struct seed {
     const char *name;
     unsigned char bytes[SIZE_MAX_BYTES];
     size_t size;
+    int rounds;
 } seed;
 
 static void load_file(const char *path, seed *s)
@@ -46,6 +47,28 @@ static void seed_maps(seed *s, pe_pixel_type type)
     need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
              pe_maps_write(maps, path, type, NULL) == PE_OK,
          "cannot make maps");
+    load_file(path, s);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
+/* A sun and four brush angles. */
+static void seed_angles(seed *s)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(48, 24, 4);
+    pe_bake_options options = {
+        .normals = 12, .width = 8, .height = 9, .angles = 4, .surface.ndf = { PE_NDF_GGX, 0.5, 0.3, NULL }
+    };
+    pe_env *env;
+    pe_maps *maps = NULL;
+
+    rgb[3 * (9 * 48 + 20)] = 30000;
+    close(mkstemp(path));
+    need(pe_env_create(48, 24, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
+             pe_maps_get_info(maps)->suns == 1 && pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
+         "cannot make maps with a sun and angles");
     load_file(path, s);
     pe_maps_free(maps);
     pe_env_free(env);
@@ -211,10 +234,11 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
     if (pe_env_read_memory(bytes, size, "fuzz", &env, &error) == PE_OK)
         pe_env_free(env);
     if (pe_maps_read_memory(bytes, size, "fuzz", &maps, &error) == PE_OK) {
-        static const double n[3] = { 1, 2, 3 };
+        static const double n[3] = { 1, 2, 3 }, o[3] = { 1, 2, -0.5 };
         double rgb[3];
 
         pe_sample(maps, NULL, NULL, n, n, rgb);
+        pe_sample(maps, NULL, o, n, o, rgb);
         pe_maps_free(maps);
     } else {
         sound &= error.message[0] && !strchr(error.message, '\n');
@@ -231,7 +255,7 @@ static void test_seed(const seed *s)
 
     loads_or_says(s->bytes, s->size, &whole);
     ok(whole == 1, "%s: %zu bytes load", s->name, s->size);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < s->rounds; round++) {
         size_t size = s->size;
 
         memcpy(bytes, s->bytes, size);
@@ -239,13 +263,13 @@ static void test_seed(const seed *s)
             damage(bytes, &size, &state);
         sound &= loads_or_says(bytes, size, &loaded);
     }
-    ok(sound, "%s: %d damaged copies, %d still load", s->name, ROUNDS, loaded);
+    ok(sound, "%s: %d damaged copies, %d still load", s->name, s->rounds, loaded);
 }
 
 int main(void)
 {
-    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },
-                            { .name = "HDR" },       { .name = "heights" },    { .name = "table" } };
+    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },   { .name = "HDR" },
+                            { .name = "heights" },   { .name = "table" },      { .name = "angles" } };
 
     seed_maps(&seeds[0], PE_PIXEL_HALF);
     seed_maps(&seeds[1], PE_PIXEL_FLOAT);
@@ -253,7 +277,10 @@ int main(void)
     seed_hdr(&seeds[3]);
     seed_heights(&seeds[4]);
     seed_table(&seeds[5]);
-    for (int k = 0; k < 6; k++)
+    seed_angles(&seeds[6]);
+    for (int k = 0; k < 7; k++) {
+        seeds[k].rounds = k < 6 ? ROUNDS : ROUNDS / 10; /* with suns to weigh, loading takes longer */
         test_seed(&seeds[k]);
+    }
     return done_testing();
 }

@@ -1,0 +1,541 @@
+/* test-hemispheres.c - claims: every texel of a hemisphere is the naive reference's; suns drawn out come back exact;
+ * the kernel agrees with the loop over lights that it stands for, and any number of threads gives the same bytes; a
+ * white furnace is 1 everywhere; lookups are continuous; a brush direction given at each point costs less than half as
+ * much error again as one that the file fixes; a file keeps all that. */
+#include "hemispheres.h"
+#include "ndf.h"
+#include "reference.h"
+#include "tap.h"
+#include "vector.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const kinds[] = { "beckmann", "ggx", "phong", "table" };
+static const double aslant[3] = { 1, 0.2, -0.3 };
+
+static pe_env *make_env(int width, int height, float *rgb)
+{
+    pe_env *env;
+
+    need(pe_env_create(width, height, rgb, &env, NULL) == PE_OK, "no memory");
+    free(rgb);
+    return env;
+}
+
+static pe_maps *bake(const pe_env *env, const pe_bake_options *options)
+{
+    pe_maps *maps;
+    pe_error error;
+
+    need(pe_bake(env, options, &maps, &error) == PE_OK, "%s", error.message);
+    return maps;
+}
+
+/* A surface of random normal n and a viewer o of it, their cosine above cos_min. */
+static void random_view(unsigned *state, double cos_min, double n[3], double o[3])
+{
+    do {
+        reference_random_direction(state, n);
+        reference_random_direction(state, o);
+    } while (!(pe_dot(n, o) > cos_min));
+}
+
+typedef struct difference {
+    double error2, norm2, worst;
+} difference;
+
+static void compare(const double got[3], const double expected[3], difference *d)
+{
+    for (int c = 0; c < 3; c++) {
+        double miss = fabs(got[c] - expected[c]);
+
+        d->error2 += miss * miss;
+        d->norm2 += expected[c] * expected[c];
+        d->worst = fmax(d->worst, miss / (expected[c] + 1e-30));
+    }
+}
+
+static double relative(const difference *d)
+{
+    return sqrt(d->error2 / d->norm2);
+}
+
+/* ---- texels ---- */
+
+/* The brush direction of image k: the file's, turned about n from t towards b. */
+static void turned_brush(const pe_maps_info *info, int k, const double n[3], double d[3])
+{
+    double turn = M_PI * (k % info->angles) / info->angles;
+    pe_frame frame;
+
+    pe_frame_make(n, info->direction, &frame);
+    pe_frame_direction(&frame, (const double[3]){ cos(turn), sin(turn), 0 }, d);
+}
+
+/* What the reference says of a texel, whose direction in the tangent frame is `local`. */
+static void reference_texel(const float *rgb, int width, int height, const pe_maps *maps, int image,
+                            const double local[3], double out[3])
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    double n[3], d[3], w[3], o[3];
+    pe_frame frame;
+
+    pe_maps_normal(maps, image, n);
+    turned_brush(info, image, n, d);
+    pe_frame_make(n, d, &frame);
+    pe_frame_direction(&frame, local, w);
+    pe_reflect(w, n, o);
+    reference_reflection_of((int)info->surface.ndf.kind, rgb, width, height, info->surface.ndf.alpha_x,
+                            info->surface.ndf.alpha_y, d, n, o, out);
+}
+
+/* In single precision, bounds as in test-filter.c. */
+static void test_texels(pe_ndf_kind kind, double alpha_x, double alpha_y, int angles)
+{
+    enum { ENV_WIDTH = 48, ENV_HEIGHT = 25 };
+    float *rgb = reference_noise(ENV_WIDTH, ENV_HEIGHT, 6);
+    pe_env *env;
+    pe_bake_options options = { .surface.ndf = { kind, alpha_x, alpha_y, NULL },
+                                .direction = { aslant[0], aslant[1], aslant[2] },
+                                .normals = 12,
+                                .width = 21,
+                                .height = 16,
+                                .angles = angles,
+                                .accuracy = PE_ACCURACY_EXACT };
+    difference d = { 0, 0, 0 };
+    pe_disc disc = { 21, 16 };
+    pe_maps *maps;
+
+    need(pe_env_create(ENV_WIDTH, ENV_HEIGHT, rgb, &env, NULL) == PE_OK, "no memory");
+    maps = bake(env, &options);
+    for (int k = 0; k < 12 * angles * 21 * 16; k += 7 * angles - 1) {
+        int image = k / (21 * 16), texel = k % (21 * 16);
+        double local[3], expected[3], got[3];
+
+        if (!pe_disc_direction(&disc, texel % 21, texel / 21, local))
+            continue;
+        reference_texel(rgb, ENV_WIDTH, ENV_HEIGHT, maps, image, local, expected);
+        for (int c = 0; c < 3; c++)
+            got[c] = (double)pe_maps_image(maps, image)[3 * texel + c];
+        compare(got, expected, &d);
+    }
+    ok(d.worst < 1e-5 && relative(&d) < 3e-6, "texels, %s, alpha %g, %g, %d angles: worst %.1e, rms %.1e", kinds[kind],
+       alpha_x, alpha_y, angles, d.worst, relative(&d));
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
+/* ---- suns ---- */
+
+/* In the highlights of suns, for any normal.  Beckmann's bound is the discreteness of the truth's own denominator: it
+ * falls with the environment's texels; GGX's is that of the mean over half vectors that stands for the integral. */
+static void test_suns(pe_ndf_kind kind, double alpha_x, double alpha_y, double worst_max, double rms_max)
+{
+    enum { WIDTH = 256, HEIGHT = 128 };
+    static const int places[4][2] = { { 40, 26 }, { 41, 26 }, { 154, 80 }, { 200, 4 } };
+    float *rgb = reference_noise(WIDTH, HEIGHT, 9);
+    pe_bake_options options = { .surface.ndf = { kind, alpha_x, alpha_y, NULL },
+                                .direction = { aslant[0], aslant[1], aslant[2] },
+                                .normals = 42,
+                                .accuracy = PE_ACCURACY_EXACT };
+    difference d = { 0, 0, 0 };
+    unsigned state = 12;
+    pe_env *env;
+    pe_maps *maps;
+
+    for (int k = 0; k < 4; k++)
+        for (int c = 0; c < 3; c++)
+            rgb[3 * (places[k][1] * WIDTH + places[k][0]) + c] = (float)(30000 - 9000 * c);
+    env = make_env(WIDTH, HEIGHT, rgb);
+    maps = bake(env, &options);
+    for (int k = 0; k < 400; k++) {
+        double w[3], theta, h[3], n[3], o[3], got[3], exact[3];
+
+        reference_direction(WIDTH, HEIGHT, places[k % 4][0], places[k % 4][1], w, &theta);
+        reference_random_direction(&state, n);
+        if (!(pe_dot(n, w) > 0.25))
+            continue;
+        for (int c = 0; c < 3; c++)
+            h[c] = n[c] + alpha_y * (reference_random(&state) - 0.5);
+        pe_normalize(h, h);
+        pe_reflect(w, h, o);
+        if (!(pe_dot(n, o) > 0.15))
+            continue;
+        pe_sample(maps, NULL, NULL, n, o, got);
+        pe_exact(env, &options.surface, aslant, n, o, exact);
+        compare(got, exact, &d);
+    }
+    ok(pe_maps_get_info(maps)->suns == 4 && d.worst < worst_max && relative(&d) < rms_max,
+       "%d suns, %s, alpha %g, %g: highlights within %.2f %%, rms %.2f %%", pe_maps_get_info(maps)->suns, kinds[kind],
+       alpha_x, alpha_y, 100 * d.worst, 100 * relative(&d));
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+/* ---- the kernel ---- */
+
+/* All texels with n.r > 0.15. */
+static difference compare_maps(const pe_maps *a, const pe_maps *b)
+{
+    const pe_maps_info *info = pe_maps_get_info(b);
+    pe_disc disc = { info->width, info->height };
+    difference d = { 0, 0, 0 };
+
+    for (int k = 0; k < info->images * info->width * info->height; k++) {
+        int image = k / (info->width * info->height), texel = k % (info->width * info->height);
+        double local[3], got[3], expected[3];
+
+        if (!pe_disc_direction(&disc, texel % info->width, texel / info->width, local) || !(local[2] > 0.15))
+            continue;
+        for (int c = 0; c < 3; c++) {
+            got[c] = (double)pe_maps_image(a, image)[3 * texel + c];
+            expected[c] = (double)pe_maps_image(b, image)[3 * texel + c];
+        }
+        compare(got, expected, &d);
+    }
+    return d;
+}
+
+static pe_maps *make_maps(const pe_ndf *ndf)
+{
+    pe_maps_info info = { .method = PE_METHOD_HEMISPHERES,
+                          .surface.ndf = *ndf,
+                          .direction = { aslant[0], aslant[1], aslant[2] },
+                          .normals = 12,
+                          .angles = 1,
+                          .width = 25,
+                          .height = 25 };
+    pe_maps *maps;
+
+    need(pe_maps_create(&info, &maps, NULL) == PE_OK, "maps");
+    return maps;
+}
+
+/* Filled from the same lights by kernel and by loop: relative L2 below what the kernel is asked for. */
+static void test_kernel(pe_ndf_kind kind, double alpha_x, double alpha_y, double wanted)
+{
+    const pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL } };
+    pe_env *env = make_env(64, 32, reference_noise(64, 32, 10));
+    pe_maps *by_loop = make_maps(&surface.ndf), *by_kernel = make_maps(&surface.ndf);
+    pe_kernel *kernel = NULL;
+    pe_lobe *lobe = NULL;
+    pe_cloud cloud;
+    pe_disc cells;
+    difference d;
+
+    need(pe_lobe_make(&surface, 2, &lobe, NULL) == PE_OK && pe_cloud_from_env(env, &cloud, NULL) == PE_OK, "lobe");
+    cells = pe_kernel_cells(lobe, wanted);
+    need(pe_kernel_make(lobe, &by_kernel->disc, &cells, 2, &kernel, NULL) == PE_OK &&
+             pe_fill_hemispheres_by_kernel(&cloud, lobe, kernel, 2, NULL, by_kernel, NULL) == PE_OK &&
+             pe_fill_hemispheres(&cloud, lobe, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), 2, NULL, by_loop, NULL) == PE_OK,
+         "fill");
+    d = compare_maps(by_kernel, by_loop);
+    ok(relative(&d) < wanted, "kernel, %s, alpha %g, %g, asked for %g: within %.2e of the loop, worst %.1e",
+       kinds[kind], alpha_x, alpha_y, wanted, relative(&d), d.worst);
+    pe_kernel_free(kernel);
+    pe_cloud_free(&cloud);
+    pe_lobe_free(lobe);
+    pe_maps_free(by_loop);
+    pe_maps_free(by_kernel);
+    pe_env_free(env);
+}
+
+static void test_threads(pe_accuracy accuracy)
+{
+    pe_env *env = make_env(64, 32, reference_noise(64, 32, 11));
+    pe_maps *maps[3];
+    int same = 1;
+
+    for (int k = 0; k < 3; k++) {
+        pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.4, 0.2, NULL },
+                                    .normals = 12,
+                                    .width = 19,
+                                    .height = 24,
+                                    .accuracy = accuracy,
+                                    .threads = k + 1 };
+
+        maps[k] = bake(env, &options);
+        same &= memcmp(pe_maps_image(maps[k], 0), pe_maps_image(maps[0], 0), sizeof(float) * 3 * 12 * 19 * 24) == 0 &&
+                pe_maps_get_info(maps[k])->error_estimate == pe_maps_get_info(maps[0])->error_estimate &&
+                pe_maps_get_info(maps[k])->lookup_error == pe_maps_get_info(maps[0])->lookup_error;
+    }
+    ok(same, "%s: the same bytes from 1, 2 and 3 threads", accuracy == PE_ACCURACY_FAST ? "fast" : "exact");
+    for (int k = 0; k < 3; k++)
+        pe_maps_free(maps[k]);
+    pe_env_free(env);
+}
+
+/* ---- furnace ---- */
+
+static void test_furnace(const pe_ndf *ndf, pe_accuracy accuracy, int angles)
+{
+    pe_env *env = make_env(64, 32, reference_constant(64, 32, 1));
+    pe_bake_options options = {
+        .surface.ndf = *ndf, .normals = 42, .width = 17, .height = 14, .angles = angles, .accuracy = accuracy
+    };
+    pe_maps *maps = bake(env, &options);
+    double worst = 0;
+    unsigned state = 1;
+
+    for (int k = 0; k < 5000; k++) {
+        double n[3], o[3], d[3], rgb[3];
+        pe_sampling sampling = { (pe_interpolation)(k % 4), 0 };
+
+        random_view(&state, -1, n, o);
+        reference_random_direction(&state, d);
+        if (k % 5 == 0)
+            pe_maps_normal(maps, k % (42 * angles), n);
+        if (k % 3 == 0) /* grazing to within rounding */
+            for (int c = 0; c < 3; c++)
+                o[c] -= pe_dot(n, o) * n[c] * (1 - 1e-15);
+        pe_sample(maps, &sampling, d, n, o, rgb);
+        for (int c = 0; c < 3; c++)
+            worst = fmax(worst, fabs(rgb[c] - 1));
+    }
+    ok(worst < 1e-5, "white furnace, %s, alpha %g, %g, %s, %d angles: 1 within %.1e", kinds[ndf->kind], ndf->alpha_x,
+       ndf->alpha_y, accuracy == PE_ACCURACY_FAST ? "fast" : "exact", angles, worst);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+static void test_furnaces(void)
+{
+    static const double range[2] = { -0.5, 0.5 };
+    float *density = reference_noise(8, 3, 5);
+    pe_ndf_table *table = NULL;
+
+    need(pe_ndf_table_create(24, 3, range, range, density, &table, NULL) == PE_OK, "table");
+    free(density);
+    for (int accuracy = PE_ACCURACY_EXACT; accuracy <= PE_ACCURACY_FAST; accuracy++) {
+        test_furnace(&(pe_ndf){ PE_NDF_BECKMANN, 0.4, 0.15, NULL }, (pe_accuracy)accuracy, 1);
+        test_furnace(&(pe_ndf){ PE_NDF_BECKMANN, 0.1, 0.1, NULL }, (pe_accuracy)accuracy, 5);
+        test_furnace(&(pe_ndf){ PE_NDF_GGX, 0.3, 0.2, NULL }, (pe_accuracy)accuracy, 1);
+        test_furnace(&(pe_ndf){ PE_NDF_PHONG, 0.3, 0.3, NULL }, (pe_accuracy)accuracy, 4);
+        test_furnace(&(pe_ndf){ PE_NDF_TABLE, 0, 0, table }, (pe_accuracy)accuracy, 1);
+    }
+    pe_ndf_table_free(table);
+}
+
+/* ---- continuity ---- */
+
+#define STEP 1e-5
+
+/* Two views closer than STEP: of random n and o, the second turned a little.  Grazing ones, and n on the edge of a
+ * triangle - half way between two vertices of frequency 2 -, among them. */
+static void neighbours(const pe_maps *maps, int k, unsigned *state, double n[2][3], double o[2][3])
+{
+    double grazing = k % 3 == 0 ? 1e-4 + 0.02 * reference_random(state) : 0, aside[3];
+
+    random_view(state, 0.01, n[0], o[0]);
+    if (k % 4 == 1) {
+        double other[3], least = 4;
+
+        for (int vertex = 0; vertex < 42; vertex++) { /* the nearest of another, and a point between */
+            double candidate[3], miss = 0;
+
+            pe_maps_normal(maps, k % 42, n[0]);
+            pe_maps_normal(maps, vertex, candidate);
+            for (int c = 0; c < 3; c++)
+                miss += pow(candidate[c] - n[0][c], 2);
+            if (vertex != k % 42 && miss * (1 + 0.5 * reference_random(state)) < least) {
+                least = miss;
+                memcpy(other, candidate, sizeof other);
+            }
+        }
+        for (int c = 0; c < 3; c++)
+            n[0][c] += reference_random(state) * other[c];
+        pe_normalize(n[0], n[0]);
+    }
+    if (grazing > 0 || pe_dot(n[0], o[0]) < 0.01) {
+        double along = pe_dot(n[0], o[0]);
+
+        for (int c = 0; c < 3; c++)
+            o[0][c] += (grazing + 1e-3 - along) * n[0][c];
+        pe_normalize(o[0], o[0]);
+    }
+    for (int v = 0; v < 2; v++) {
+        reference_random_direction(state, aside);
+        for (int c = 0; c < 3; c++) {
+            double from[2] = { n[0][c], o[0][c] };
+
+            (v ? o : n)[1][c] = from[v] + STEP * aside[c];
+        }
+    }
+    for (int c = 0; c < 3; c++) { /* the first a step to the other side, so that an edge lies between */
+        n[0][c] = 2 * n[0][c] - n[1][c];
+        o[0][c] = 2 * o[0][c] - o[1][c];
+    }
+}
+
+/* Lookups of alpha 0.3 change, over a radian of tilt, by a few times the difference between black and white: a jump
+ * would be some thousand times that. */
+static void test_continuity(int angles)
+{
+    pe_env *env = make_env(64, 32, reference_noise(64, 32, 3));
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.3, NULL },
+                                .direction = { aslant[0], aslant[1], aslant[2] },
+                                .normals = 42,
+                                .angles = angles,
+                                .accuracy = PE_ACCURACY_EXACT };
+    pe_maps *maps = bake(env, &options);
+    double steepest = 0;
+    unsigned state = 4;
+
+    for (int k = 0; k < 12000; k++) {
+        double n[2][3], o[2][3], rgb[2][3];
+
+        neighbours(maps, k, &state, n, o);
+        for (int v = 0; v < 2; v++)
+            pe_sample(maps, NULL, aslant, n[v], o[v], rgb[v]);
+        for (int c = 0; c < 3; c++)
+            steepest = fmax(steepest, fabs(rgb[1][c] - rgb[0][c]) / (2 * STEP));
+    }
+    ok(steepest < 10, "%d angles: lookups change by %.2f a radian at most, edges and horizons included", angles,
+       steepest);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+/* ---- brush directions ---- */
+
+/* A sky, a ground and a few lamps. */
+static float *make_room(int width, int height)
+{
+    static const double lamps[4][3] = { { 1, 1, 0.3 }, { -0.5, 0.4, 1 }, { 0.2, 0.9, -0.8 }, { -1, -0.1, -0.4 } };
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            float *texel = rgb + 3 * (y * width + x);
+            double w[3], theta;
+
+            reference_direction(width, height, x, y, w, &theta);
+            for (int c = 0; c < 3; c++) {
+                texel[c] = (float)(w[1] > 0 ? 0.3 + 0.2 * w[1] * c : 0.1 + 0.05 * sin(9 * w[c]));
+                for (int lamp = 0; lamp < 4; lamp++) {
+                    double unit[3];
+
+                    pe_normalize(lamps[lamp], unit);
+                    texel[c] += pe_dot(unit, w) > 0.97 ? (float)(3 + lamp - c) : 0;
+                }
+            }
+        }
+    return rgb;
+}
+
+typedef enum brush { BRUSH_OF_FILE, BRUSH_GIVEN, BRUSH_RANDOM } brush;
+
+/* Relative error of lookups: the file's brush, left out or given, or another for each view. */
+static double brush_error(const pe_env *env, const pe_maps *maps, brush kind)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    difference d = { 0, 0, 0 };
+    unsigned state = 21;
+
+    for (int k = 0; k < 600; k++) {
+        double n[3], o[3], direction[3], got[3], exact[3];
+
+        random_view(&state, 0.15, n, o);
+        reference_random_direction(&state, direction);
+        if (kind != BRUSH_RANDOM)
+            memcpy(direction, info->direction, sizeof direction);
+        pe_sample(maps, NULL, kind == BRUSH_OF_FILE ? NULL : direction, n, o, got);
+        pe_exact(env, &info->surface, direction, n, o, exact);
+        compare(got, exact, &d);
+    }
+    return relative(&d);
+}
+
+static void test_brush(double alpha_x, double alpha_y, int angles)
+{
+    pe_env *env = make_env(128, 64, make_room(128, 64));
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
+                                .normals = 162,
+                                .width = 43,
+                                .height = 43,
+                                .accuracy = PE_ACCURACY_FAST };
+    pe_maps *fixed = bake(env, &options), *turning;
+    double error = brush_error(env, fixed, BRUSH_OF_FILE), given, any;
+
+    options.angles = angles;
+    turning = bake(env, &options);
+    given = brush_error(env, turning, BRUSH_GIVEN);
+    any = brush_error(env, turning, BRUSH_RANDOM);
+    ok(any < 1.5 * error && given < 1.5 * error && brush_error(env, turning, BRUSH_OF_FILE) == given,
+       "alpha %g, %g, %d angles: error %.2f %% with random brushes, %.2f %% with the file's; fixed %.2f %%", alpha_x,
+       alpha_y, angles, 100 * any, 100 * given, 100 * error);
+    pe_maps_free(turning);
+    pe_maps_free(fixed);
+    pe_env_free(env);
+}
+
+/* ---- files ---- */
+
+/* Half floats have 11 bits, and where suns are, they are as they were. */
+static void test_file(pe_pixel_type type, double bound)
+{
+    enum { WIDTH = 64, HEIGHT = 32 };
+    char path[] = "/tmp/prefenv-test-hemispheres-XXXXXX";
+    float *rgb = reference_noise(WIDTH, HEIGHT, 9);
+    pe_bake_options options = { .surface.ndf = { PE_NDF_GGX, 0.4, 0.2, NULL },
+                                .direction = { aslant[0], aslant[1], aslant[2] },
+                                .normals = 12,
+                                .angles = 5,
+                                .width = 21,
+                                .height = 24 };
+    difference d = { 0, 0, 0 };
+    unsigned state = 2;
+    pe_env *env;
+    pe_maps *maps, *back = NULL;
+    const pe_maps_info *info;
+
+    rgb[3 * (9 * WIDTH + 20)] = rgb[3 * (20 * WIDTH + 40) + 1] = 30000;
+    env = make_env(WIDTH, HEIGHT, rgb);
+    maps = bake(env, &options);
+    close(mkstemp(path));
+    need(pe_maps_write(maps, path, type, NULL) == PE_OK && pe_maps_read(path, &back, NULL) == PE_OK, "%s", path);
+    unlink(path);
+    for (int k = 0; k < 4000; k++) {
+        double n[3], o[3], direction[3], got[3], expected[3];
+
+        random_view(&state, 0, n, o);
+        reference_random_direction(&state, direction);
+        pe_sample(maps, NULL, direction, n, o, expected);
+        pe_sample(back, NULL, direction, n, o, got);
+        compare(got, expected, &d);
+    }
+    info = pe_maps_get_info(back);
+    ok(d.worst < bound && info->suns == 2 && info->angles == 5, "%s file: lookups within %.1e, %d suns, %d angles",
+       type == PE_PIXEL_HALF ? "half" : "float", d.worst, info->suns, info->angles);
+    pe_maps_free(back);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+int main(void)
+{
+    test_texels(PE_NDF_BECKMANN, 0.3, 0.3, 1);
+    test_texels(PE_NDF_BECKMANN, 0.4, 0.2, 5);
+    test_texels(PE_NDF_GGX, 0.2, 0.5, 1);
+    test_texels(PE_NDF_PHONG, 0.3, 0.3, 4);
+    test_suns(PE_NDF_BECKMANN, 0.2, 0.2, 0.006, 0.002);
+    test_suns(PE_NDF_BECKMANN, 0.4, 0.2, 0.006, 0.002);
+    test_suns(PE_NDF_GGX, 0.2, 0.2, 0.015, 0.005);
+    test_kernel(PE_NDF_BECKMANN, 0.3, 0.3, 0.002);
+    test_kernel(PE_NDF_BECKMANN, 0.4, 0.2, 0.002);
+    test_kernel(PE_NDF_BECKMANN, 0.3, 0.3, 0.0005);
+    test_kernel(PE_NDF_GGX, 0.4, 0.4, 0.002);
+    test_threads(PE_ACCURACY_EXACT);
+    test_threads(PE_ACCURACY_FAST);
+    test_furnaces();
+    test_continuity(1);
+    test_continuity(6);
+    test_brush(0.3, 0.1, 12);
+    test_file(PE_PIXEL_HALF, 1e-3);
+    test_file(PE_PIXEL_FLOAT, 1e-6);
+    return done_testing();
+}
