@@ -9,4 +9,4 @@ Panel(0, "fig6b.png", "(b) reference", concat(str(Reference_Samples, 0, 0), " sa
 Panel(1, "fig6c.png", "(c) baseline", concat("MSE ", str(Mse_C, 0, 5)))
 Panel(2, "fig6d.png", "(d) nearest", concat("MSE ", str(Mse_D, 0, 5)))
 Panel(3, "fig6e.png", "(e) a = 50", concat("MSE ", str(Mse_E, 0, 5)))
-Panel(4, "fig6f.png", "ours: linear", concat("MSE ", str(Mse_F, 0, 5)))
+Panel(4, "fig6f.png", "ours: hemispheres", concat("MSE ", str(Mse_F, 0, 5)))

@@ -8,4 +8,4 @@
 #include "panels.inc"
 Panel(0, "fig7a.png", "(a) reference", concat(str(Reference7_Samples, 0, 0), " samples"))
 Panel(1, "fig7b.png", "(b) 42 maps, a = 50", concat("MSE ", str(Mse7_B, 0, 5)))
-Panel(2, "fig7c.png", "ours: linear", concat("MSE ", str(Mse7_C, 0, 5)))
+Panel(2, "fig7c.png", "ours: hemispheres", concat("MSE ", str(Mse7_C, 0, 5)))

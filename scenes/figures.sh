@@ -131,6 +131,7 @@ sheet()
 make_mesh work
 if [ ! work/environment.exr -ef "$hdri" ]; then ln -sf "$hdri" work/environment.exr; fi
 bake maps --alpha $alpha --paper
+bake hemispheres --alpha $alpha
 bake baseline --alpha $alpha --method baseline
 bake brushed42 --alpha $brushed --paper
 bake brushed --alpha $brushed
@@ -204,7 +205,7 @@ what() # NAME
         fig7a) echo "(a) reference, $samples samples" ;;
         fig7a-half) echo "(a) with $((samples / 2)) samples" ;;
         fig7b) echo '(b) 42 maps, weighted, a = 50' ;;
-        fig6f | fig7c) echo 'ours: linear' ;;
+        fig6f | fig7c) echo 'ours: hemispheres' ;;
     esac
 }
 
@@ -212,7 +213,8 @@ baked() # NAME: seconds of its bake, or nothing
 {
     case $1 in
         fig6c) cat work/baseline.seconds ;;
-        fig6[def]) cat work/maps.seconds ;;
+        fig6[de]) cat work/maps.seconds ;;
+        fig6f) cat work/hemispheres.seconds ;;
         fig7b) cat work/brushed42.seconds ;;
         fig7c) cat work/brushed.seconds ;;
     esac

@@ -22,6 +22,7 @@ small_prepare()
     ln -sf "$studio" studio.exr
     make_mesh .
     small_bake environment.exr maps.exr --paper --size 100x50
+    small_bake environment.exr hemispheres.exr --normals 162 --size 40x40
     small_bake environment.exr baseline.exr --size 100x50 --method baseline
     small_bake courtyard.exr brushed.pe.exr --alpha 0.1,0.03 --paper --size 100x50
     ln -sf brushed.pe.exr brushed42.exr
