@@ -34,7 +34,7 @@ small_prepare()
     . "$srcdir/scenes/machined.sh"
     for kind in $machined_kinds; do
         machined_measure $kind --size 256x256
-        small_bake studio.exr $kind.pe.exr --ndf $kind.ndf.exr --method representative --size 64x32 --normals 12
+        small_bake studio.exr surface-$kind.pe.exr --ndf $kind.ndf.exr --method representative --size 64x32 --normals 12
     done
     cat >fig6_numbers.inc <<'END'
 #declare Reference_Samples = 1;

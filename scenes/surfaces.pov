@@ -3,7 +3,7 @@
 //
 //     prefenv surface turned -o turned.heights.exr --roughness 0.24um
 //     prefenv ndf turned.heights.exr -o turned.ndf.exr --wrap --turn
-//     prefenv bake studio.exr -o turned.pe.exr --ndf turned.ndf.exr --direction 0,1,0
+//     prefenv bake studio.exr -o surface-turned.pe.exr --ndf turned.ndf.exr --direction 0,1,0
 //
 // and so on for milled, blasted and brushed.  --turn lays the brush direction across the grooves: the direction is the
 // axis, and the grooves run around it.  The plot's file, turned.plot.exr, is the same measurement with --range 0.35.
@@ -70,7 +70,7 @@ light_source { <-20, 8, -7>*10 rgb 1.6 parallel point_at 0 shadowless }
   pigment { rgb <0.95, 0.93, 0.9> }
   finish {
     ambient 0 diffuse 0
-    reflection { 1 metallic prefiltered_environment { exr concat(Name, ".pe.exr") transform Frame } }
+    reflection { 1 metallic prefiltered_environment { exr concat("surface-", Name, ".pe.exr") transform Frame } }
   }
 #end
 

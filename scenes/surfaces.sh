@@ -31,14 +31,14 @@ say()
 }
 
 for kind in $machined_kinds; do
-    if newer $kind.pe.exr "$hdri" "$PREFENV" "$srcdir/scenes/machined.sh"; then
+    if newer surface-$kind.pe.exr "$hdri" "$PREFENV" "$srcdir/scenes/machined.sh"; then
         say $kind 'up to date'
         continue
     fi
     begun=$(now)
     machined_measure $kind
     "$PREFENV" bake "$hdri" -o $kind.part.exr --ndf $kind.ndf.exr --quiet || die "$kind was not baked; see above"
-    mv $kind.part.exr $kind.pe.exr
+    mv $kind.part.exr surface-$kind.pe.exr
     say $kind "measured and baked in $(seconds_since "$begun") s"
 done
 
