@@ -1,6 +1,6 @@
 /* fis.c - filtered importance sampling of a lat-long environment. [Křivánek]
  *
- * A half vector h drawn with density D cos(theta_h) makes a direction w with density p = D cos(theta_h) / (4 o.h).  Each
+ * A half vector h drawn with density D cos(theta_h) makes a direction w with density p = D cos(theta_h) / (4 o.h). Each
  * of N samples speaks for the solid angle 1 / (N p), and is looked up in the level whose texels there are as large. */
 #include "fis.h"
 

@@ -291,12 +291,18 @@ static pe_maps_info hemispheres_for(const pe_maps_info *wanted)
     return info;
 }
 
+/* Hemispheres that only stand between an environment and lat-long maps must not have more texels than this. */
+#define HIDDEN_TEXELS_MAX 5e7
+
 /* Leaves kernel NULL where none is of use. */
 static pe_status make_kernel(pe_baker *b, pe_error *error)
 {
     const pe_maps_info *info = &b->hemispheres;
     pe_disc map = { info->width, info->height }, cells = pe_kernel_cells(b->lobe, pe_wanted_error(&b->options));
 
+    if (b->info.method == PE_METHOD_REPRESENTATIVE &&
+        (double)info->normals * info->width * info->height > HIDDEN_TEXELS_MAX)
+        return PE_OK;
     if (b->info.method == PE_METHOD_BASELINE || info->accuracy != PE_ACCURACY_FAST ||
         !pe_kernel_suits(b->lobe, &cells, info->width, info->height))
         return PE_OK;

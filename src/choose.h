@@ -8,7 +8,8 @@
 double pe_wanted_error(const pe_bake_options *options);
 
 /* Completes info's normals, width and height for hemispheres, as far as they are 0, for an environment of info's source
- * size: the least memory that reaches the wanted error, and if none does within the quality's budget, the least error within it. */
+ * size: the least memory that reaches the wanted error, and if none does within the quality's budget, the
+ * least error within it. */
 void pe_choose_hemispheres(const pe_bake_options *options, pe_maps_info *info);
 
 /* A width and height for hemispheres whose splines follow the lobe to about a tenth of a percent. */

@@ -46,74 +46,70 @@ static double mean_weight(const direction *h, const double o[3])
 }
 
 /* Texels beyond the horizon carry on with the horizon's. */
-static void fill(const direction *h, pe_denominator *lobe)
+static void fill(const direction *h, pe_denominator *denominator)
 {
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             double o[3] = { 0, 0, 1 };
 
-            if (!pe_disc_direction(&lobe->disc, x, y, o)) {
+            if (!pe_disc_direction(&denominator->disc, x, y, o)) {
                 o[0] = x + 0.5 - SIDE / 2.0;
                 o[1] = y + 0.5 - SIDE / 2.0;
                 o[2] = 0;
                 pe_normalize(o, o);
             }
-            lobe->coefficients[y * SIDE + x] = (float)mean_weight(h, o);
+            denominator->coefficients[y * SIDE + x] = (float)mean_weight(h, o);
         }
-    pe_spline_coefficients(lobe->coefficients, SIDE, SIDE, 1);
+    pe_spline_coefficients(denominator->coefficients, SIDE, SIDE, 1);
 }
 
 pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error)
 {
     static const double middle[2] = { 0.5, 0.5 };
-    pe_denominator *lobe = malloc(sizeof *lobe);
+    pe_denominator *denominator = malloc(sizeof *denominator);
     direction *h = malloc(PAIRS * sizeof *h);
     double reach;
 
-    if (!lobe || !h) {
-        free(lobe);
+    if (!denominator || !h) {
+        free(denominator);
         free(h);
         return pe_fail_memory(error, "the weights of a lobe");
     }
-    lobe->disc = (pe_disc){ SIDE, SIDE };
+    denominator->disc = (pe_disc){ SIDE, SIDE };
     reach = pe_ndf_reach(ndf, PE_LOBE_CUTOFF);
-    lobe->farthest = 1 + reach * reach;
+    denominator->farthest = 1 + reach * reach;
     for (int k = 0; k < PAIRS; k++) {
         double point[2];
 
         pe_lattice_point(k, middle, point);
         pe_ndf_sample(ndf, point[0], point[1], h[k]);
     }
-    fill(h, lobe);
+    fill(h, denominator);
     free(h);
-    *out = lobe;
+    *out = denominator;
     return PE_OK;
 }
 
-void pe_denominator_free(pe_denominator *lobe)
+void pe_denominator_free(pe_denominator *denominator)
 {
-    free(lobe);
+    free(denominator);
 }
 
-double pe_denominator_at(const pe_denominator *lobe, const double o[3])
+double pe_denominator_at(const pe_denominator *denominator, const double o[3])
 {
     const float toward[3] = { (float)o[0], (float)o[1], (float)o[2] };
-    float point[2], across[4], down[4];
+    pe_disc_taps taps;
     double sum = 0;
-    int x, y;
 
-    pe_disc_point(&lobe->disc, toward, point);
-    x = (int)(point[0] - 0.5f);
-    y = (int)(point[1] - 0.5f);
-    pe_spline_weights(point[0] - 0.5f - (float)x, across);
-    pe_spline_weights(point[1] - 0.5f - (float)y, down);
+    pe_disc_taps_at(&denominator->disc, toward, &taps);
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++)
-            sum += (double)(down[j] * across[i] * lobe->coefficients[(y + j - 1) * SIDE + x + i - 1]);
+            sum += (double)(taps.down[j] * taps.across[i] *
+                            denominator->coefficients[(taps.y + j - 1) * SIDE + taps.x + i - 1]);
     return sum;
 }
 
-double pe_denominator_farthest(const pe_denominator *lobe)
+double pe_denominator_farthest(const pe_denominator *denominator)
 {
-    return lobe->farthest;
+    return denominator->farthest;
 }

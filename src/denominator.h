@@ -10,12 +10,12 @@ typedef struct pe_denominator pe_denominator;
 
 /* Takes a few milliseconds. */
 pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error);
-void pe_denominator_free(pe_denominator *lobe); /* NULL is allowed */
+void pe_denominator_free(pe_denominator *denominator); /* NULL is allowed */
 
 /* W(o), o unit and above the horizon of the tangent frame. */
-double pe_denominator_at(const pe_denominator *lobe, const double o[3]);
+double pe_denominator_at(const pe_denominator *denominator, const double o[3]);
 
 /* 1 / cos^2(theta_h) of the farthest half vectors that count; may be INFINITY. */
-double pe_denominator_farthest(const pe_denominator *lobe);
+double pe_denominator_farthest(const pe_denominator *denominator);
 
 #endif

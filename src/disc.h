@@ -7,6 +7,8 @@
 #ifndef PE_DISC_H
 #define PE_DISC_H
 
+#include "spline.h"
+
 #include <math.h>
 
 /* Texels between the unit circle and the picture's edge, so that the sixteen taps of a cubic stay inside. */
@@ -49,6 +51,31 @@ static inline void pe_disc_point(const pe_disc *disc, const float direction[3], 
 
     point[0] = direction[0] * scale * (float)pe_disc_radius(disc->width) + 0.5f * (float)disc->width;
     point[1] = direction[1] * scale * (float)pe_disc_radius(disc->height) + 0.5f * (float)disc->height;
+}
+
+/* The 4 x 4 spline coefficients about a direction: those in the columns x - 1 to x + 2 of the rows y - 1 to y + 2, all
+ * of them inside, and their shares. */
+typedef struct pe_disc_taps {
+    int x, y;
+    float across[4], down[4];
+} pe_disc_taps;
+
+static inline int pe_disc_tap(float point, int side)
+{
+    int tap = (int)(point - 0.5f);
+
+    return tap < 1 ? 1 : tap > side - 3 ? side - 3 : tap;
+}
+
+static inline void pe_disc_taps_at(const pe_disc *disc, const float direction[3], pe_disc_taps *taps)
+{
+    float point[2];
+
+    pe_disc_point(disc, direction, point);
+    taps->x = pe_disc_tap(point[0], disc->width);
+    taps->y = pe_disc_tap(point[1], disc->height);
+    pe_spline_weights(point[0] - 0.5f - (float)taps->x, taps->across);
+    pe_spline_weights(point[1] - 0.5f - (float)taps->y, taps->down);
 }
 
 /* Gives the texels beyond the horizon, which a cubic's taps reach, the value of the last texel within on their

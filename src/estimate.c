@@ -99,7 +99,7 @@ static void try_lookup(trial *t, const pe_frame *frame, const pe_lights *lights,
     if (!(local[2] > COSINE_MIN))
         return;
     pe_frame_direction(frame, local, world);
-    pe_sample(t->maps, NULL, NULL, frame->n, world, shown);
+    pe_sample(t->maps, NULL, frame->t, frame->n, world, shown);
     compare_view(t, frame, lights, o, shown);
 }
 
@@ -132,9 +132,9 @@ static void try_viewers(trial *t, const pe_frame *frame, const pe_lights *lights
 
 /* ---- trials ---- */
 
-static void try_frame(trial *t, const double n[3], pe_frame *frame, pe_lights *lights)
+static void try_frame(trial *t, const double n[3], const double brush[3], pe_frame *frame, pe_lights *lights)
 {
-    pe_frame_make(n, t->maps->info.direction, frame);
+    pe_frame_make(n, brush, frame);
     pe_lights_fill(t->cloud, t->lobe, frame, pe_lobe_reach(t->lobe, LIMIT), lights);
 }
 
@@ -144,7 +144,7 @@ static void try_normal(trial *t, pe_lights *lights)
     int vertex = (int)((long long)t->index * pe_geodesic_count(t->maps->geodesic) / FRAMES);
     pe_frame frame;
 
-    try_frame(t, pe_geodesic_vertex(t->maps->geodesic, vertex), &frame, lights);
+    try_frame(t, pe_geodesic_vertex(t->maps->geodesic, vertex), t->maps->info.direction, &frame, lights);
     if (t->maps->info.method == PE_METHOD_HEMISPHERES)
         try_own_texels(t, &frame, lights);
     else
@@ -181,7 +181,10 @@ static void try_any_normal(trial *t, pe_lights *lights)
     t->share = in_cap ? (1 - CAP_COSINE) / CAP_FRAMES : CAP_COSINE / (LOOKUP_FRAMES - CAP_FRAMES);
     pe_lattice_point(in_cap ? t->index : t->index - CAP_FRAMES, middle, point);
     any_normal(t, point, n);
-    try_frame(t, n, &frame, lights);
+    if (t->maps->info.angles > 1)
+        try_frame(t, n, (const double[3]){ n[1], n[2], n[0] }, &frame, lights); /* any brush will do, none is special */
+    else
+        try_frame(t, n, t->maps->info.direction, &frame, lights);
     try_viewers(t, &frame, lights);
 }
 

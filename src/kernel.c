@@ -64,6 +64,7 @@ pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted)
 
 #define BYTES_MAX 5e8
 #define SPAN_CELLS 600.0 /* that a lobe covers */
+#define CELLS_MAX 1e6    /* each thread holds 64 bytes of each */
 #define WIDE_CELLS_MAX 1e4
 
 int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int height)
@@ -72,7 +73,7 @@ int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int he
     int is_narrow = lobe->surface.ndf.kind == PE_NDF_BECKMANN;
 
     return lobe->surface.weight == PE_WEIGHT_NDF && 0.8 * width * height * SPAN_CELLS * sizeof(float) < BYTES_MAX &&
-           (is_narrow || (double)cells->width * cells->height < WIDE_CELLS_MAX);
+           (double)cells->width * cells->height < (is_narrow ? CELLS_MAX : WIDE_CELLS_MAX);
 }
 
 /* ---- make ---- */
@@ -293,25 +294,18 @@ typedef float quad __attribute__((vector_size(16)));
 
 static void spread_light(const pe_disc *cells, const float direction[3], const quad *value, float *to)
 {
-    float point[2], across[4], down[4];
-    int x, y;
+    pe_disc_taps t;
 
-    pe_disc_point(cells, direction, point);
-    x = (int)(point[0] - 0.5f);
-    y = (int)(point[1] - 0.5f);
-    pe_spline_weights(point[0] - 0.5f - (float)x, across);
-    pe_spline_weights(point[1] - 0.5f - (float)y, down);
-    x = x < 1 ? 1 : x > cells->width - 3 ? cells->width - 3 : x;
-    y = y < 1 ? 1 : y > cells->height - 3 ? cells->height - 3 : y;
+    pe_disc_taps_at(cells, direction, &t);
     for (int j = 0; j < 4; j++) {
-        float *cell = to + 4 * PE_KERNEL_GROUP * ((y + j - 1) * cells->width + x - 1);
-        quad part = down[j] * *value;
+        float *cell = to + 4 * PE_KERNEL_GROUP * ((t.y + j - 1) * cells->width + t.x - 1);
+        quad part = t.down[j] * *value;
 
         for (int i = 0; i < 4; i++, cell += 4 * PE_KERNEL_GROUP) {
             quad sum;
 
             memcpy(&sum, cell, sizeof sum);
-            sum += across[i] * part;
+            sum += t.across[i] * part;
             memcpy(cell, &sum, sizeof sum);
         }
     }

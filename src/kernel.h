@@ -2,8 +2,8 @@
  *
  * In its own tangent frame every normal filters alike: the weight D(h) of the light w for the viewer o depends on w and
  * o alone.  So it is worked out once, for every texel of a hemisphere's picture, as a cubic B-spline over a grid of
- * cells of the hemisphere; spreading a normal's lights over the cells with the same spline's shares, what was a loop over
- * lights with an exponential each becomes a sum of products over a few hundred cells. */
+ * cells of the hemisphere; spreading a normal's lights over the cells with the same spline's shares, what was a loop
+ * over lights with an exponential each becomes a sum of products over a few hundred cells. */
 #ifndef PE_KERNEL_H
 #define PE_KERNEL_H
 

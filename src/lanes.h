@@ -13,6 +13,7 @@
 
 typedef float floats __attribute__((vector_size(4 * LANES)));
 typedef int ints __attribute__((vector_size(4 * LANES)));
+typedef unsigned unsigneds __attribute__((vector_size(4 * LANES)));
 
 /* Before a function with a hot loop.  Contraction makes a product and a sum one rounding where the processor can, which
  * is worth half as much speed again; bits then depend on the processor.  ThreadSanitizer starts after the resolvers of
@@ -34,8 +35,8 @@ INLINE floats load(const float *from)
     return v;
 }
 
-/* e becomes 2^-e for 0 <= e <= cutoff, 0 beyond: 2^k 2^f with k whole and |f| <= 1/2, 2^f by the polynomial of degree 6
- * through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8). */
+/* e becomes 2^-e for 0 <= e <= cutoff, 0 beyond, anything below 0.  2^k 2^f with k whole and |f| <= 1/2, 2^f by the
+ * polynomial of degree 6 through 2^f at f = 0 and at six Chebyshev points (relative error below 1e-8). */
 INLINE void exp2_of_negative(floats *e, float cutoff)
 {
     const float round_to_whole = 12582912.0f; /* 1.5 * 2^23: adding it leaves the whole part in the low bits */
@@ -43,7 +44,7 @@ INLINE void exp2_of_negative(floats *e, float cutoff)
     floats near = (floats)((ints)*e & inside);
     floats shifted = round_to_whole - near;
     floats f = -near - (shifted - round_to_whole);
-    ints k = (ints)shifted << 23;
+    unsigneds k = (unsigneds)shifted << 23;
     floats p = 0.000154531634f * f + 0.00133908633f;
 
     p = p * f + 0.00961808302f;
@@ -51,7 +52,7 @@ INLINE void exp2_of_negative(floats *e, float cutoff)
     p = p * f + 0.240226507f;
     p = p * f + 0.693147182f;
     p = p * f + 1.0f;
-    *e = (floats)(((ints)p + k) & inside);
+    *e = (floats)(((unsigneds)p + k) & (unsigneds)inside);
 }
 
 #endif

@@ -18,29 +18,20 @@ static inline pe_quad pe_look_load(const float *texel)
     return v;
 }
 
-static inline int pe_look_clamp(int k, int last)
-{
-    return k < 1 ? 1 : k > last ? last : k;
-}
-
 /* What image k of hemispheres shows in the direction `local` of its frame, unit; below the horizon: what the horizon
  * shows.  Red, green, blue, and a fourth value without meaning. */
 static inline pe_quad pe_look(const pe_maps *maps, int image, const float local[3])
 {
-    int width = maps->info.width, height = maps->info.height, x, y;
+    int width = maps->info.width;
     const float *row;
-    float point[2], across[4], down[4];
+    pe_disc_taps t;
     pe_quad sum = { 0, 0, 0, 0 };
 
-    pe_disc_point(&maps->disc, local, point);
-    x = pe_look_clamp((int)(point[0] - 0.5f), width - 3);
-    y = pe_look_clamp((int)(point[1] - 0.5f), height - 3);
-    pe_spline_weights(point[0] - 0.5f - (float)x, across);
-    pe_spline_weights(point[1] - 0.5f - (float)y, down);
-    row = maps->coefficients + (size_t)image * pe_maps_image_values(maps) + 3 * ((y - 1) * width + x - 1);
+    pe_disc_taps_at(&maps->disc, local, &t);
+    row = maps->coefficients + (size_t)image * pe_maps_image_values(maps) + 3 * ((t.y - 1) * width + t.x - 1);
     for (int j = 0; j < 4; j++, row += 3 * width)
-        sum += down[j] * (across[0] * pe_look_load(row) + across[1] * pe_look_load(row + 3) +
-                          across[2] * pe_look_load(row + 6) + across[3] * pe_look_load(row + 9));
+        sum += t.down[j] * (t.across[0] * pe_look_load(row) + t.across[1] * pe_look_load(row + 3) +
+                            t.across[2] * pe_look_load(row + 6) + t.across[3] * pe_look_load(row + 9));
     return sum;
 }
 

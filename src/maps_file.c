@@ -329,6 +329,8 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
     AND_THEN(get_integer(from, "prefenv:height", &info->height))
     AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
     AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
+    if (status == PE_OK && info->suns && !pe_suns_possible(&info->surface))
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has suns, which maps of its ndf cannot have", from->name);
     if (status == PE_OK && (info->suns < 0 || info->suns > PE_SUNS_MAX))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:suns %d is out of range; at most %d can be",
                        from->name, info->suns, PE_SUNS_MAX);

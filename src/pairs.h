@@ -6,7 +6,8 @@
 #include "maps.h"
 #include "parallel.h"
 
-/* Fills every image of maps with [Motegi Eq. 5] over the lights of the cloud.  lobe: the maps' surface; lobe_reach: as for pe_lights_fill. */
+/* Fills every image of maps with [Motegi Eq. 5] over the lights of the cloud.  lobe: the maps' surface;
+ * lobe_reach: as for pe_lights_fill. */
 pe_status pe_fill_pairs(const pe_cloud *cloud, const pe_lobe *lobe, double lobe_reach, int threads, pe_report *report,
                         pe_maps *maps, pe_error *error);
 

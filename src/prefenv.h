@@ -352,7 +352,7 @@ typedef enum pe_quality {
 } pe_quality;
 
 typedef enum pe_accuracy {
-    PE_ACCURACY_AUTO = 0, /* exact up to 400 x 200 environment texels, fast above */
+    PE_ACCURACY_AUTO = 0, /* exact up to 128 x 64 environment texels, fast above */
     PE_ACCURACY_EXACT,    /* [Motegi Eq. 5], every texel */
     PE_ACCURACY_FAST      /* the environment in clusters; the error is estimated and recorded */
 } pe_accuracy;
@@ -363,7 +363,8 @@ typedef struct pe_bake_options {
     pe_surface surface;  /* both alphas 0: 0.1, or those of the table */
     double direction[3]; /* brush direction, any length; 0 0 0: +y */
     int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: as many as fit.  Baseline: ignored */
-    int width, height;   /* of a map, in texels, each in [8, 8192]; 0: as the lobe needs.  Lat-long maps: 400 x 200 */
+    int width, height;   /* of a map, in texels, each in [8, 8192]; 0: as the lobe needs.  Lat-long maps: in [2, 8192];
+                            0: 400 x 200 */
     int angles;          /* hemispheres: brush directions each normal is filtered for, 1 or 4 to 64; 0: 1 */
     pe_quality quality;
     double error; /* the relative error wanted of what is looked up, 0.0005 to 0.1; 0: what `quality` gives */

@@ -11,7 +11,7 @@ static int halvings(const pe_env *env, double pitch)
 {
     int times = 0, width = env->width, height = env->height;
 
-    while (width % 2 == 0 && height % 2 == 0 && 2 * M_PI / (width / 2) <= pitch) {
+    while (width % 2 == 0 && height % 2 == 0 && 4 * M_PI / width <= pitch) {
         width /= 2;
         height /= 2;
         times++;

@@ -78,7 +78,8 @@ like "$("$PREFENV" bake env.png -o n.exr $quick 2>&1)" 'warning: env.png: a PNG 
 oiiotool env.exr --mulc 1e6 -d float -o sun.exr
 # shellcheck disable=SC2086
 said=$("$PREFENV" bake sun.exr -o s.exr $quick 2>&1)
-like "$said" "warning: s.exr: brighter than half floats can hold .*--float" "too bright for half floats: written as floats"
+like "$said" "warning: s.exr: brighter than half floats can hold .*--float" \
+    "too bright for half floats: written as floats"
 like "$(oiiotool --info -v s.exr)" "float" "and has float channels"
 # shellcheck disable=SC2086
 is "$("$PREFENV" bake sun.exr -o s2.exr --float $quick 2>&1 | grep -c warning)" 0 "with --float there is no warning"

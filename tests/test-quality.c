@@ -2,7 +2,7 @@
  * at alpha 0.1 and a third at (0.1, 0.03), in the paper's memory; and the lookup error that a bake records is the one
  * it has, within a factor of 2, or 3 where the lobe is anisotropic, or 0.1 %.
  *
- * Of the anisotropic error, half and more is made where the normal is within 12 degrees of the brush direction: tangents
+ * Of the anisotropic error, half and more is made where the normal is within 12 degrees of the brush: tangents
  * turn there as fast as one walks around, and the maps of three normals differ much.
  *
  * On real HDRIs where the data is at hand (PREFENV_DATA), averaged down to 256 x 128 so that the truth is quick.  The

@@ -159,7 +159,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
 
 static int bake_one(const bake_settings *settings, batch *b, double begun)
 {
-    const char *inputs[] = { settings->environment, NULL };
+    const char *inputs[] = { settings->environment, settings->surface.ndf, NULL };
     int result;
 
     if (cli_check_output("bake", settings->output, inputs) != CLI_SUCCESS)
@@ -197,7 +197,7 @@ static int for_each_frame(const bake_settings *settings, const frames *f, frame_
 /* Before hours of work: is every frame there, and can it be written? */
 static int check_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
 {
-    const char *inputs[] = { environment, NULL };
+    const char *inputs[] = { environment, settings->surface.ndf, NULL };
     struct stat about;
 
     (void)b;

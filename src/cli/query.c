@@ -103,7 +103,7 @@ int query_answer(const char *line, size_t length, query_function *function, cons
                  char answer[QUERY_ANSWER_MAX], char error[QUERY_ERROR_BYTES])
 {
     static const char *const names[] = { "normal", "direction to the viewer", "brush direction" };
-    double values[FIELDS_WITH_BRUSH], rgb[3];
+    double values[FIELDS_WITH_BRUSH] = { 0 }, rgb[3];
     const char *first;
     int count;
 

@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* Radiance of a surface of normal n towards o, its brush along `direction`, or NULL where the line does not say; all are
- * finite, not zero, of any length. */
+/* Radiance of a surface of normal n towards o, its brush along `direction`, or NULL where the line does not say; all
+ * are finite, not zero, of any length. */
 typedef void query_function(const double n[3], const double o[3], const double direction[3], const void *data,
                             double rgb[3]);
 
