@@ -75,6 +75,10 @@ like "$("$PREFENV" bake square.exr -o n.exr $quick 2>&1)" 'warning: square.exr: 
 like "$("$PREFENV" bake env.png -o n.exr $quick 2>&1)" 'warning: env.png: a PNG holds no light brighter than white' \
     "and so is a PNG"
 
+said=$("$PREFENV" bake negative.exr -o e.exr --error 0.0005 --normals 12 --size 8x8 2>&1)
+like "$said" "warning: e.exr: the error of lookups is [0-9.]+ %, not the 0.05 % asked for; give more --normals" \
+    "an error that was not reached is told"
+
 oiiotool env.exr --mulc 1e6 -d float -o sun.exr
 # shellcheck disable=SC2086
 said=$("$PREFENV" bake sun.exr -o s.exr $quick 2>&1)

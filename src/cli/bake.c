@@ -294,8 +294,8 @@ static int bake_run(int argc, char **argv)
 const cli_command bake_command = {
     "bake",
     "filter an environment into a maps file",
-    "Filters a lat-long environment image by a surface's normal distribution, once for each of a few representative "
-    "normals, and writes the maps file that POV-Ray's prefiltered_environment and 'prefenv eval' look up.",
+    "Filters a lat-long environment image by a surface's normal distribution, once for each of some hundreds of "
+    "representative normals, and writes the maps file that POV-Ray's prefiltered_environment and 'prefenv eval' look up.",
     operands,
     options,
     bake_run,

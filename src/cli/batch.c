@@ -66,6 +66,20 @@ static pe_status write_maps(batch *b, const char *output, pe_error *error)
     return status;
 }
 
+/* What was asked for may take more memory than the choice may, or a harder environment than it knows. */
+static void warn_of_error(batch *b, const char *output)
+{
+    double wanted = b->options.error, reached = pe_maps_get_info(b->maps)->lookup_error;
+
+    if (b->quiet || b->made > 0 || !(wanted > 0 && reached > wanted))
+        return;
+    progress_clear(&b->bar);
+    cli_warning("bake",
+                "%s: the error of lookups is %.2g %%, not the %.2g %% asked for; give more --normals, and a larger "
+                "--size",
+                output, 100 * reached, 100 * wanted);
+}
+
 static int bake_file(batch *b, const pe_env *env, const char *environment, const char *output)
 {
     pe_status status;
@@ -85,6 +99,7 @@ static int bake_file(batch *b, const pe_env *env, const char *environment, const
     interrupt_release();
     if (status != PE_OK)
         return fail(b, &error);
+    warn_of_error(b, output);
     b->made++;
     return CLI_SUCCESS;
 }
