@@ -295,7 +295,8 @@ const cli_command bake_command = {
     "bake",
     "filter an environment into a maps file",
     "Filters a lat-long environment image by a surface's normal distribution, once for each of some hundreds of "
-    "representative normals, and writes the maps file that POV-Ray's prefiltered_environment and 'prefenv eval' look up.",
+    "representative normals, and writes the maps file that POV-Ray's prefiltered_environment and 'prefenv eval' look "
+    "up.",
     operands,
     options,
     bake_run,
