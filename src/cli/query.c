@@ -103,7 +103,7 @@ int query_answer(const char *line, size_t length, query_function *function, cons
                  char answer[QUERY_ANSWER_MAX], char error[QUERY_ERROR_BYTES])
 {
     static const char *const names[] = { "normal", "direction to the viewer", "brush direction" };
-    double values[FIELDS_WITH_BRUSH] = { 0 }, rgb[3];
+    double values[FIELDS_WITH_BRUSH], rgb[3];
     const char *first;
     int count;
 
@@ -117,9 +117,9 @@ int query_answer(const char *line, size_t length, query_function *function, cons
     count = parse_fields(line, values, error);
     if (count < 0)
         return -1;
-    for (int i = 0; i < count; i += 3)
-        if (!tame(values + i)) {
-            snprintf(error, QUERY_ERROR_BYTES, "the %s 0 0 0 has no direction", names[i / 3]);
+    for (int i = 0; i < 3 && 3 * i < count; i++)
+        if (!tame(values + 3 * i)) {
+            snprintf(error, QUERY_ERROR_BYTES, "the %s 0 0 0 has no direction", names[i]);
             return -1;
         }
     function(values, values + 3, count == FIELDS ? NULL : values + 6, data, rgb);
