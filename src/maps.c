@@ -227,33 +227,6 @@ static void set_frames(pe_maps *maps)
     }
 }
 
-/* The least of channel c about texel (x, y). */
-static float least_about(const float *rgb, int width, int height, int x, int y, int c)
-{
-    float least = rgb[3 * (y * width + x) + c];
-
-    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
-        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++)
-            least = fminf(least, rgb[3 * (j * width + i) + c]);
-    return least;
-}
-
-/* Beside a lamp that is narrower than its texels a spline swings low.  It stays above its lowest coefficient, so none
- * is left below this share of the values about it. */
-#define LOWEST_SHARE 0.4f
-
-static void lift_coefficients(const float *rgb, int width, int height, float *coefficients)
-{
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-            for (int c = 0; c < 3; c++) {
-                float *coefficient = coefficients + 3 * (y * width + x) + c;
-
-                if (*coefficient < LOWEST_SHARE * rgb[3 * (y * width + x) + c])
-                    *coefficient = fmaxf(*coefficient, LOWEST_SHARE * least_about(rgb, width, height, x, y, c));
-            }
-}
-
 static void set_coefficients(size_t image, void *data)
 {
     pe_maps *maps = data;
@@ -262,7 +235,6 @@ static void set_coefficients(size_t image, void *data)
 
     memcpy(coefficients, maps->rgb + image * values, values * sizeof *coefficients);
     pe_spline_coefficients(coefficients, maps->info.width, maps->info.height, 3);
-    lift_coefficients(maps->rgb + image * values, maps->info.width, maps->info.height, coefficients);
 }
 
 /* Lookups go everywhere in the splines, some tens of megabytes: on large pages where the system has them, which spares
