@@ -7,10 +7,10 @@
  * l / 2.  Its autocorrelation is exp(-(r / l)^2), so with a root mean square height of w the mean square of the slope
  * is 2 w^2 / l^2 along each axis: Beckmann's distribution with alpha = sqrt 2 rms slope = 2 w / l [Beckmann].
  * The field repeats itself: the feed is rounded so that a whole number of grooves fits. */
+#include "sequence.h"
 #include "status.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 #define SIDE_MAX 8192
@@ -103,19 +103,9 @@ pe_status pe_machining_complete(pe_machining_options *options, pe_error *error)
 
 /* ---- the Gaussian surface ---- */
 
-/* The next of a sequence of 64 random bits. [SplitMix] */
-static uint64_t next_bits(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
 static double next_uniform(uint64_t *state)
 {
-    return ((double)(next_bits(state) >> 11) + 0.5) / 9007199254740992.0; /* 2^53: in (0, 1) */
+    return ((double)(pe_random_bits(state) >> 11) + 0.5) / 9007199254740992.0; /* 2^53: in (0, 1) */
 }
 
 static void fill_with_noise(unsigned seed, float *values, size_t count)

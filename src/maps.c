@@ -227,6 +227,16 @@ static void set_frames(pe_maps *maps)
     }
 }
 
+static void set_turns(pe_maps *maps)
+{
+    for (int k = 0; k < maps->info.angles; k++) {
+        double angle = M_PI * k / maps->info.angles;
+
+        maps->turns[k][0] = (float)cos(angle);
+        maps->turns[k][1] = (float)sin(angle);
+    }
+}
+
 static void set_coefficients(size_t image, void *data)
 {
     pe_maps *maps = data;
@@ -265,6 +275,7 @@ pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error)
         return pe_fail_memory(error, "the splines through the maps");
     maps->coefficients[(size_t)maps->info.images * pe_maps_image_values(maps)] = 0;
     set_frames(maps);
+    set_turns(maps);
     pe_parallel_for((size_t)maps->info.images, threads, set_coefficients, maps, NULL);
     return maps->suns.count ? pe_denominator_make(&maps->info.surface.ndf, &maps->denominator, error) : PE_OK;
 }

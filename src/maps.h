@@ -26,9 +26,10 @@ struct pe_maps {
     /* Hemispheres. */
     pe_disc disc;
     pe_suns suns;
-    float (*frames)[3][3];       /* t, b, n of every vertex */
-    float *coefficients;         /* cubic splines through the images; one float more at the end */
-    pe_denominator *denominator; /* NULL where there are no suns */
+    float (*frames)[3][3];              /* t, b, n of every vertex */
+    float turns[PE_MAPS_ANGLES_MAX][2]; /* cosine and sine of every angle */
+    float *coefficients;                /* cubic splines through the images; one float more at the end */
+    pe_denominator *denominator;        /* NULL where there are no suns */
 };
 
 /* Checks info's method, surface, direction, normals, angles and size; completes frequency and images. */

@@ -132,26 +132,22 @@ typedef struct copy {
     pe_maps *to;
 } copy;
 
-static void copy_texel(const copy *c, int image, const double world[3], float *out)
+/* What the hemisphere of `vertex`, whose frame it is, shows towards `world`. */
+static void copy_texel(const pe_maps *from, int vertex, const pe_frame *frame, const double world[3], float *out)
 {
-    const pe_maps *from = c->from;
-    const double *n = pe_geodesic_vertex(from->geodesic, 2 * image);
-    int vertex = 2 * image + !(pe_dot(world, n) > 0);
     double local[3], o[3], rgb[3];
     float toward[3];
     pe_quad shown;
-    pe_frame frame;
 
-    pe_maps_frame(from, vertex, &frame);
-    pe_frame_coordinates(&frame, world, local);
+    pe_frame_coordinates(frame, world, local);
     for (int k = 0; k < 3; k++)
         toward[k] = (float)local[k];
     shown = pe_look(from, vertex, toward);
     for (int k = 0; k < 3; k++)
         rgb[k] = fmax((double)shown[k], 0);
-    pe_reflect(world, frame.n, o);
+    pe_reflect(world, frame->n, o);
     if (from->suns.count)
-        pe_suns_add(&from->suns, &from->info.surface, from->denominator, from->info.direction, frame.n, o, rgb);
+        pe_suns_add(&from->suns, &from->info.surface, from->denominator, from->info.direction, frame->n, o, rgb);
     for (int k = 0; k < 3; k++)
         out[k] = (float)rgb[k];
 }
@@ -162,12 +158,17 @@ static void copy_row(size_t row, void *data)
     int width = c->to->info.width, height = c->to->info.height;
     int image = (int)row / height, y = (int)row % height;
     float *out = pe_maps_image_to_fill(c->to, image) + 3 * y * width;
+    pe_frame frames[2];
 
+    for (int which = 0; which < 2; which++)
+        pe_maps_frame(c->from, 2 * image + which, &frames[which]);
     for (int x = 0; x < width; x++) {
         double world[3];
+        int which;
 
         pe_grid_direction(&c->to->grid, x, y, world);
-        copy_texel(c, image, world, out + 3 * x);
+        which = !(pe_dot(world, frames[0].n) > 0);
+        copy_texel(c->from, 2 * image + which, &frames[which], world, out + 3 * x);
     }
 }
 

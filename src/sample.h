@@ -13,7 +13,7 @@ typedef struct pe_view {
 /* The vertex of the maps' geodesic sphere nearest to n. */
 int pe_nearest_vertex(const pe_maps *maps, const double n[3]);
 
-/* The representative normals that have a say at n, and their shares, which add up to 1. */
+/* The representative normals that have a say at n, and their shares, in proportion. */
 typedef void pe_visit(int vertex, double weight, void *data);
 void pe_visit_normals(const pe_maps *maps, const pe_sampling *sampling, const double n[3], pe_visit *visit, void *data);
 

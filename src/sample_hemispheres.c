@@ -38,8 +38,7 @@ static void add_map(int vertex, double weight, void *data)
 /* A direction of the vertex's frame, in the frame turned by angle k. */
 static void turn(const pe_maps *maps, int k, const float local[3], float turned[3])
 {
-    double angle = M_PI * k / maps->info.angles;
-    float c = (float)cos(angle), s = (float)sin(angle);
+    float c = maps->turns[k][0], s = maps->turns[k][1];
 
     turned[0] = c * local[0] + s * local[1];
     turned[1] = c * local[1] - s * local[0];

@@ -1,8 +1,9 @@
-/* sequence.h - points spread evenly over the unit square, for any number of them. */
+/* sequence.h - points spread evenly over the unit square, for any number of them; and random bits. */
 #ifndef PE_SEQUENCE_H
 #define PE_SEQUENCE_H
 
 #include <math.h>
+#include <stdint.h>
 
 /* Point k of the lattice of the plastic number, shifted by `offsets`: [Roberts]. */
 static inline void pe_lattice_point(double k, const double offsets[2], double point[2])
@@ -13,6 +14,16 @@ static inline void pe_lattice_point(double k, const double offsets[2], double po
     point[1] = offsets[1] + k / (plastic * plastic);
     point[0] -= floor(point[0]);
     point[1] -= floor(point[1]);
+}
+
+/* The next of a sequence of 64 random bits. [SplitMix] */
+static inline uint64_t pe_random_bits(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
 }
 
 #endif

@@ -8,9 +8,6 @@
 #include "status.h"
 #include "surface.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 /* The texels of greatest power, in falling order; one more than can be suns. */
 typedef struct ranking {
     int count, texel[PE_SUNS_MAX + 1];
@@ -92,26 +89,21 @@ static void take(const pe_env *env, const pe_env *fine, int texel, pe_suns *suns
 pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surface *surface, pe_suns *suns,
                            pe_env **rest, pe_error *error)
 {
-    size_t bytes = 3 * (size_t)env->width * (size_t)env->height * sizeof *env->rgb;
-    float *rgb = malloc(bytes);
     ranking r = { 0 };
     double total;
     int count = 0;
-    pe_status status;
+    pe_status status = pe_env_create(env->width, env->height, env->rgb, rest, error);
 
-    if (!rgb)
-        return pe_fail_memory(error, "an environment without its suns");
-    memcpy(rgb, env->rgb, bytes);
+    if (status != PE_OK)
+        return status;
     suns->count = 0;
     if (pe_suns_possible(surface)) {
         total = rank(env, &r);
         count = count_suns(env, &surface->ndf, &r, total);
     }
     for (int k = 0; k < count; k++)
-        take(env, fine, r.texel[k], suns, rgb);
-    status = pe_env_create(env->width, env->height, rgb, rest, error);
-    free(rgb);
-    return status;
+        take(env, fine, r.texel[k], suns, (*rest)->rgb);
+    return PE_OK;
 }
 
 /* D(h) of one sun, h not unit. */

@@ -106,16 +106,6 @@ void pe_exact(const pe_env *env, const pe_surface *surface, const double directi
 
 /* ---- Monte Carlo ---- */
 
-/* SplitMix64 (Steele, Lea, Flood 2014): one step. */
-static uint64_t scramble(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 static double unit_interval(uint64_t bits)
 {
     return (double)(bits >> 11) * 0x1p-53;
@@ -133,11 +123,11 @@ static void view_offsets(const double n[3], const double o[3], double offsets[2]
         memcpy(&bits[1], &o[c], sizeof bits[1]);
         for (int k = 0; k < 2; k++) {
             state ^= bits[k];
-            state = scramble(&state);
+            state = pe_random_bits(&state);
         }
     }
-    offsets[0] = unit_interval(scramble(&state));
-    offsets[1] = unit_interval(scramble(&state));
+    offsets[0] = unit_interval(pe_random_bits(&state));
+    offsets[1] = unit_interval(pe_random_bits(&state));
 }
 
 /* A half vector drawn with density D cos(theta_h) sends the viewer's ray to w = reflect(o, h), with density
