@@ -4,6 +4,7 @@
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static double dot(const double a[3], const double b[3])
 {
@@ -244,6 +245,31 @@ float *reference_half_white(int width, int height, const double n[3])
 float *reference_gradient(int width, int height)
 {
     return from_directions(width, height, gradient, NULL);
+}
+
+float *reference_room(int width, int height)
+{
+    static const double lamps[4][3] = { { 1, 1, 0.3 }, { -0.5, 0.4, 1 }, { 0.2, 0.9, -0.8 }, { -1, -0.1, -0.4 } };
+    float *rgb = reference_constant(width, height, 0);
+
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            float *texel = rgb + 3 * (y * width + x);
+            double w[3], theta;
+
+            reference_direction(width, height, x, y, w, &theta);
+            for (int c = 0; c < 3; c++) {
+                texel[c] = (float)(w[1] > 0 ? 0.3 + 0.2 * w[1] * c : 0.1 + 0.05 * sin(9 * w[c]));
+                for (int lamp = 0; lamp < 4; lamp++) {
+                    double toward[3];
+
+                    memcpy(toward, lamps[lamp], sizeof toward);
+                    unit(toward);
+                    texel[c] += dot(toward, w) > 0.97 ? (float)(3 + lamp - c) : 0;
+                }
+            }
+        }
+    return rgb;
 }
 
 /* PCG-XSH-RR's smaller sibling (O'Neill 2014): 32 bits of state are plenty for a test. */

@@ -49,6 +49,7 @@ float *reference_constant(int width, int height, float value);
 float *reference_noise(int width, int height, unsigned seed);                 /* each channel uniform in [0, 1) */
 float *reference_lit_texel(int width, int height, int x, int y, float value); /* black but for one texel */
 float *reference_half_white(int width, int height, const double n[3]);        /* 1 where direction.n > 0, else 0 */
+float *reference_room(int width, int height);     /* a sky, a ground and a few lamps, none of them small */
 float *reference_gradient(int width, int height); /* (1 + w)^2 of the direction w: differs on all sides */
 
 /* A fixed sequence in [0, 1), and unit vectors spread evenly over the sphere by it. */

@@ -432,31 +432,6 @@ static void test_continuity(int angles)
 
 /* ---- brush directions ---- */
 
-/* A sky, a ground and a few lamps. */
-static float *make_room(int width, int height)
-{
-    static const double lamps[4][3] = { { 1, 1, 0.3 }, { -0.5, 0.4, 1 }, { 0.2, 0.9, -0.8 }, { -1, -0.1, -0.4 } };
-    float *rgb = reference_constant(width, height, 0);
-
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            float *texel = rgb + 3 * (y * width + x);
-            double w[3], theta;
-
-            reference_direction(width, height, x, y, w, &theta);
-            for (int c = 0; c < 3; c++) {
-                texel[c] = (float)(w[1] > 0 ? 0.3 + 0.2 * w[1] * c : 0.1 + 0.05 * sin(9 * w[c]));
-                for (int lamp = 0; lamp < 4; lamp++) {
-                    double unit[3];
-
-                    pe_normalize(lamps[lamp], unit);
-                    texel[c] += pe_dot(unit, w) > 0.97 ? (float)(3 + lamp - c) : 0;
-                }
-            }
-        }
-    return rgb;
-}
-
 typedef enum brush { BRUSH_OF_FILE, BRUSH_GIVEN, BRUSH_RANDOM } brush;
 
 /* Relative error of lookups: the file's brush, left out or given, or another for each view. */
@@ -482,7 +457,7 @@ static double brush_error(const pe_env *env, const pe_maps *maps, brush kind)
 
 static void test_brush(double alpha_x, double alpha_y, int angles)
 {
-    pe_env *env = make_env(128, 64, make_room(128, 64));
+    pe_env *env = make_env(128, 64, reference_room(128, 64));
     pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
                                 .normals = 162,
                                 .width = 43,

@@ -193,31 +193,6 @@ static void test_lit_texel(int k, int side)
 
 /* ---- against the truth ---- */
 
-/* A sky, a ground and a few lamps: smooth enough that what is measured is the method, not the lamps. */
-static float *make_room(int width, int height)
-{
-    static const double lamps[4][3] = { { 1, 1, 0.3 }, { -0.5, 0.4, 1 }, { 0.2, 0.9, -0.8 }, { -1, -0.1, -0.4 } };
-    float *rgb = reference_constant(width, height, 0);
-
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            float *texel = rgb + 3 * (y * width + x);
-            double w[3], theta;
-
-            reference_direction(width, height, x, y, w, &theta);
-            for (int c = 0; c < 3; c++) {
-                texel[c] = (float)(w[1] > 0 ? 0.3 + 0.2 * w[1] * c : 0.1 + 0.05 * sin(9 * w[c]));
-                for (int lamp = 0; lamp < 4; lamp++) {
-                    double unit[3];
-
-                    pe_normalize(lamps[lamp], unit);
-                    texel[c] += pe_dot(unit, w) > 0.97 ? (float)(3 + lamp - c) : 0;
-                }
-            }
-        }
-    return rgb;
-}
-
 /* Relative RMS of lookups against the exact answer, over views of a sphere with n.o > 0.15. */
 static double error_of(const pe_env *env, const pe_maps *maps, const pe_sampling *mode)
 {
@@ -263,7 +238,7 @@ static void test_at_normals(const pe_env *env, const pe_maps *maps)
 
 static void test_order(void)
 {
-    pe_env *env = make_env(128, 64, make_room(128, 64));
+    pe_env *env = make_env(128, 64, reference_room(128, 64));
     pe_maps *maps = bake(env, PE_METHOD_REPRESENTATIVE, 0.15, 0.15, 200, 100);
     pe_maps *baseline = bake(env, PE_METHOD_BASELINE, 0.15, 0.15, 200, 100);
     double errors[MODES], error_baseline = error_of(env, baseline, NULL);
