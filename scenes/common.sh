@@ -54,6 +54,16 @@ make_mesh()
     mv "$target.tmp" "$target"
 }
 
+# make_teapot FOLDER: FOLDER/teapot_mesh.inc out of the 32 patches, likewise
+make_teapot()
+{
+    local target=$1/teapot_mesh.inc script=$srcdir/scenes/patches2mesh.awk patches=$srcdir/scenes/teapot.patches
+
+    newer "$target" "$patches" "$script" && return
+    awk -f "$script" "$patches" >"$target.tmp" || die 'teapot.patches could not be converted; see above'
+    mv "$target.tmp" "$target"
+}
+
 # The renderer, quietly and without the user's own povray.ini.  What it says goes into LOG, whose end is shown if it
 # fails.  Sets trace_seconds to POV-Ray's own "Trace Time", and trace_cpu_seconds to what its threads worked in it.
 #

@@ -8,7 +8,7 @@
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
 small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f fig7_mask fig7a fig7b fig7c ten_lines
-    cylinder spheres gallery fig4 fig6 fig7 readme surfaces view'
+    cylinder spheres gallery teapot fig4 fig6 fig7 readme surfaces view'
 
 small_prepare()
 {
@@ -21,6 +21,7 @@ small_prepare()
     ln -sf "$courtyard" environment.exr
     ln -sf "$studio" studio.exr
     make_mesh .
+    make_teapot .
     small_bake environment.exr maps.exr --paper --size 100x50
     small_bake environment.exr hemispheres.exr --normals 162 --size 40x40
     small_bake environment.exr baseline.exr --size 100x50 --method baseline
