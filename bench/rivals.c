@@ -160,7 +160,8 @@ static void baseline(const pe_env *env, const char *path)
 /* ---- views ---- */
 
 typedef struct view {
-    double n[3], o[3], exact[3];
+    pe_point at;
+    double exact[3];
 } view;
 
 static void random_direction(double direction[3])
@@ -182,11 +183,11 @@ static void make_views(const pe_env *env, const pe_maps_info *info, view views[V
     for (int k = 0; k < VIEWS;) {
         view *v = &views[k];
 
-        random_direction(v->n);
-        random_direction(v->o);
-        if (v->n[0] * v->o[0] + v->n[1] * v->o[1] + v->n[2] * v->o[2] < 0.15)
+        random_direction(v->at.n);
+        random_direction(v->at.o);
+        if (v->at.n[0] * v->at.o[0] + v->at.n[1] * v->at.o[1] + v->at.n[2] * v->at.o[2] < 0.15)
             continue;
-        pe_exact(env, &info->surface, info->direction, v->n, v->o, v->exact);
+        pe_exact(env, &info->surface, info->direction, v->at.n, v->at.o, v->exact);
         k++;
     }
 }
@@ -207,9 +208,9 @@ static void try_views(const fis_pyramid *pyramid, const pe_maps *maps, const vie
             double got[3];
 
             if (samples)
-                fis_reflect(pyramid, alpha, info->direction, samples, views[k].n, views[k].o, got);
+                fis_reflect(pyramid, alpha, info->direction, samples, views[k].at.n, views[k].at.o, got);
             else
-                pe_sample(maps, NULL, NULL, views[k].n, views[k].o, got);
+                pe_sample(maps, NULL, &views[k].at, got);
             compare(&result, got, views[k].exact);
         }
         rounds++;
@@ -223,7 +224,7 @@ static void all_views(const pe_env *env, const char *path)
 {
     pe_maps *maps = read_maps(path);
     fis_pyramid *pyramid = fis_pyramid_make(env);
-    view *views = malloc(VIEWS * sizeof *views);
+    view *views = calloc(VIEWS, sizeof *views);
 
     if (views == NULL)
         abort();

@@ -94,12 +94,13 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
 static void try_lookup(trial *t, const pe_frame *frame, const pe_lights *lights, const double local[3])
 {
     const float o[1][3] = { { (float)local[0], (float)local[1], (float)local[2] } };
-    double world[3], shown[3];
+    pe_point point = { .n = { frame->n[0], frame->n[1], frame->n[2] }, .direction = frame->t };
+    double shown[3];
 
     if (!(local[2] > COSINE_MIN))
         return;
-    pe_frame_direction(frame, local, world);
-    pe_sample(t->maps, NULL, frame->t, frame->n, world, shown);
+    pe_frame_direction(frame, local, point.o);
+    pe_sample(t->maps, NULL, &point, shown);
     compare_view(t, frame, lights, o, shown);
 }
 

@@ -457,11 +457,17 @@ typedef struct pe_sampling {
     double exponent; /* Eq. 7's a, for weighted; 0: 50 (f / 2)^2 */
 } pe_sampling;
 
-/* The reflected radiance towards o at a surface of normal n: [Motegi Eq. 3] with the interpolation asked for.  n and o
- * of any length but zero; if o lies behind the surface, n is turned to face it.  `sampling` may be NULL (defaults).
- * `direction` is the brush's at this point, of any length but zero; NULL, or maps of one angle: the one of the file. */
-void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double direction[3], const double n[3],
-               const double o[3], double rgb[3]);
+/* A point of a surface that is looked at.  n, o and direction are of any length but zero; if o lies behind the surface,
+ * n is turned to face it. */
+typedef struct pe_point {
+    double n[3], o[3];
+    const double *direction; /* the brush's at this point; NULL, or maps of one angle: the one of the file */
+    double roughness;        /* of maps of many roughnesses; those of one, as every method here makes, ignore it */
+} pe_point;
+
+/* The reflected radiance of a point: [Motegi Eq. 3] with the interpolation asked for.  `sampling` may be NULL
+ * (defaults). */
+void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point *point, double rgb[3]);
 
 #ifdef __cplusplus
 }

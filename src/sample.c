@@ -66,14 +66,13 @@ void pe_visit_normals(const pe_maps *maps, const pe_sampling *sampling, const do
     }
 }
 
-void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const double direction[3], const double n[3],
-               const double o[3], double rgb[3])
+void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point *point, double rgb[3])
 {
     static const pe_sampling defaults = { PE_INTERPOLATION_DEFAULT, 0 };
-    pe_view view = { .direction = maps->info.angles > 1 ? direction : NULL };
+    pe_view view = { .direction = maps->info.angles > 1 ? point->direction : NULL };
 
-    pe_normalize_any(n, view.n);
-    pe_normalize_any(o, view.o);
+    pe_normalize_any(point->n, view.n);
+    pe_normalize_any(point->o, view.o);
     if (pe_dot(view.n, view.o) < 0)
         pe_scale(-1, view.n, view.n);
     pe_reflect(view.o, view.n, view.r);

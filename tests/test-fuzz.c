@@ -5,6 +5,7 @@
  * crashes. */
 #include "prefenv.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "tap.h"
 
 #include <math.h>
@@ -237,8 +238,8 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
         static const double n[3] = { 1, 2, 3 }, o[3] = { 1, 2, -0.5 };
         double rgb[3];
 
-        pe_sample(maps, NULL, NULL, n, n, rgb);
-        pe_sample(maps, NULL, o, n, o, rgb);
+        sample_point(maps, NULL, NULL, n, n, rgb);
+        sample_point(maps, NULL, o, n, o, rgb);
         pe_maps_free(maps);
     } else {
         sound &= error.message[0] && !strchr(error.message, '\n');

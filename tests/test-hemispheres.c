@@ -5,6 +5,7 @@
 #include "hemispheres.h"
 #include "ndf.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "tap.h"
 #include "vector.h"
 
@@ -165,7 +166,7 @@ static void test_suns(pe_ndf_kind kind, double alpha_x, double alpha_y, double w
         pe_reflect(w, h, o);
         if (!(pe_dot(n, o) > 0.15))
             continue;
-        pe_sample(maps, NULL, NULL, n, o, got);
+        sample_point(maps, NULL, NULL, n, o, got);
         pe_exact(env, &options.surface, aslant, n, o, exact);
         compare(got, exact, &d);
     }
@@ -199,7 +200,7 @@ static void test_suns_on_horizon(void)
     for (int k = 0; k < TURNS; k++) {
         double turn = 2 * M_PI * k / TURNS, o[3] = { cos(turn), k % 2 ? 0 : 1e-12, sin(turn) }, got[3];
 
-        pe_sample(maps, NULL, NULL, up, o, got);
+        sample_point(maps, NULL, NULL, up, o, got);
         for (int c = 0; c < 3; c++)
             wrong += !(got[c] >= 0 && got[c] < 1e6);
     }
@@ -322,7 +323,7 @@ static void test_furnace(const pe_ndf *ndf, pe_accuracy accuracy, int angles)
         if (k % 3 == 0) /* grazing to within rounding */
             for (int c = 0; c < 3; c++)
                 o[c] -= pe_dot(n, o) * n[c] * (1 - 1e-15);
-        pe_sample(maps, &sampling, d, n, o, rgb);
+        sample_point(maps, &sampling, d, n, o, rgb);
         for (int c = 0; c < 3; c++)
             worst = fmax(worst, fabs(rgb[c] - 1));
     }
@@ -420,7 +421,7 @@ static void test_continuity(int angles)
 
         neighbours(maps, k, &state, n, o);
         for (int v = 0; v < 2; v++)
-            pe_sample(maps, NULL, aslant, n[v], o[v], rgb[v]);
+            sample_point(maps, NULL, aslant, n[v], o[v], rgb[v]);
         for (int c = 0; c < 3; c++)
             steepest = fmax(steepest, fabs(rgb[1][c] - rgb[0][c]) / (2 * STEP));
     }
@@ -448,7 +449,7 @@ static double brush_error(const pe_env *env, const pe_maps *maps, brush kind)
         reference_random_direction(&state, direction);
         if (kind != BRUSH_RANDOM)
             memcpy(direction, info->direction, sizeof direction);
-        pe_sample(maps, NULL, kind == BRUSH_OF_FILE ? NULL : direction, n, o, got);
+        sample_point(maps, NULL, kind == BRUSH_OF_FILE ? NULL : direction, n, o, got);
         pe_exact(env, &info->surface, direction, n, o, exact);
         compare(got, exact, &d);
     }
@@ -509,8 +510,8 @@ static void test_file(pe_pixel_type type, double bound)
 
         random_view(&state, 0, n, o);
         reference_random_direction(&state, direction);
-        pe_sample(maps, NULL, direction, n, o, expected);
-        pe_sample(back, NULL, direction, n, o, got);
+        sample_point(maps, NULL, direction, n, o, expected);
+        sample_point(back, NULL, direction, n, o, got);
         compare(got, expected, &d);
     }
     info = pe_maps_get_info(back);

@@ -6,6 +6,7 @@
  * (h.n) and only if its light comes from in front of the surface.  No table, no histogram. */
 #include "prefenv.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "tap.h"
 
 #include <math.h>
@@ -143,7 +144,7 @@ static void say_exact(const void *data, const double n[3], const double o[3], do
 
 static void say_baked(const void *data, const double n[3], const double o[3], double rgb[3])
 {
-    pe_sample(data, NULL, NULL, n, o, rgb);
+    sample_point(data, NULL, NULL, n, o, rgb);
 }
 
 static pe_ndf_table *make_table(const pe_slopes *slopes)

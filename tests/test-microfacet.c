@@ -4,6 +4,7 @@
 #include "ndf.h"
 #include "prefenv.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "surface.h"
 #include "tap.h"
 #include "vector.h"
@@ -351,7 +352,7 @@ static void test_lookups(const char *name, float *rgb, double bound)
         reference_random_direction(&state, o);
         if (fabs(pe_dot(n, o)) < 0.15)
             continue;
-        pe_sample(maps, NULL, NULL, n, o, seen);
+        sample_point(maps, NULL, NULL, n, o, seen);
         pe_exact(env, &gold, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             error2 += pow(seen[c] - exact[c], 2);

@@ -9,6 +9,7 @@
  * paper's: 42 normals in pairs of 400 x 200, weighted interpolation with a = 50. */
 #include "prefenv.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "tap.h"
 #include "vector.h"
 
@@ -62,7 +63,7 @@ static errors measure(const pe_maps *maps, const pe_sampling *sampling, const vi
     for (int k = 0; k < VIEWS; k++) {
         double rgb[3];
 
-        pe_sample(maps, sampling, NULL, views[k].n, views[k].o, rgb);
+        sample_point(maps, sampling, NULL, views[k].n, views[k].o, rgb);
         for (int c = 0; c < 3; c++) {
             error2 += (rgb[c] - views[k].exact[c]) * (rgb[c] - views[k].exact[c]);
             norm2 += views[k].exact[c] * views[k].exact[c];

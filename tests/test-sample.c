@@ -3,6 +3,7 @@
  * state. */
 #include "prefenv.h"
 #include "reference.h"
+#include "sample_point.h"
 #include "tap.h"
 #include "vector.h"
 
@@ -75,7 +76,7 @@ static void test_furnace(pe_method method, double alpha_x, double alpha_y, int w
         if (k % 5 == 0) /* grazing to within rounding */
             for (int c = 0; c < 3; c++)
                 o[c] -= pe_dot(n, o) * n[c] * (1 - 1e-15);
-        pe_sample(maps, &modes[k % MODES], NULL, n, o, rgb);
+        sample_point(maps, &modes[k % MODES], NULL, n, o, rgb);
         for (int c = 0; c < 3; c++)
             worst = fmax(worst, fabs(rgb[c] - 1));
     }
@@ -119,9 +120,9 @@ static void test_half_white(int k, int side, pe_accuracy accuracy)
                 o[c] -= (1 - 0.1 * reference_random(&state)) * pe_dot(n, o) * n[c];
         if (!(pe_dot(n, o) > 0))
             continue;
-        pe_sample(maps, &modes[0], NULL, n, o, rgb);
+        sample_point(maps, &modes[0], NULL, n, o, rgb);
         worst = fmax(worst, rgb[0]);
-        pe_sample(maps, &modes[3], NULL, n, o, rgb);
+        sample_point(maps, &modes[3], NULL, n, o, rgb);
         worst = fmax(worst, rgb[0]);
         if (accuracy == PE_ACCURACY_EXACT)
             pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
@@ -178,7 +179,7 @@ static void test_lit_texel(int k, int side)
         pe_normalize(r, r);
         pe_scale(pe_dot(r, n) > 0 ? 1 : -1, n, facing);
         pe_reflect(r, facing, o);
-        pe_sample(maps, &modes[view % 2 ? 0 : 3], NULL, facing, o, rgb);
+        sample_point(maps, &modes[view % 2 ? 0 : 3], NULL, facing, o, rgb);
         if (pe_dot(facing, own) > 0)
             seen = fmax(seen, rgb[0]);
         else
@@ -203,7 +204,7 @@ static double error_of(const pe_env *env, const pe_maps *maps, const pe_sampling
         double n[3], o[3], got[3], exact[3];
 
         random_view(&state, 0.15, n, o);
-        pe_sample(maps, mode, NULL, n, o, got);
+        sample_point(maps, mode, NULL, n, o, got);
         pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             error2 += (got[c] - exact[c]) * (got[c] - exact[c]);
@@ -225,7 +226,7 @@ static void test_at_normals(const pe_env *env, const pe_maps *maps)
         do
             random_view(&state, -1, ignored, o);
         while (!(fabs(pe_dot(n, o)) > 0.15));
-        pe_sample(maps, &modes[k % 2 ? 0 : 3], NULL, n, o, got);
+        sample_point(maps, &modes[k % 2 ? 0 : 3], NULL, n, o, got);
         pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
         for (int c = 0; c < 3; c++) {
             error2 += (got[c] - exact[c]) * (got[c] - exact[c]);
@@ -270,7 +271,7 @@ static void test_continuity(void)
         double angle = 2 * M_PI * k / steps, tilt = 0.5 * sin(3 * angle), rgb[3];
         double n[3] = { cos(angle) * cos(tilt), sin(angle) * cos(tilt), sin(tilt) };
 
-        pe_sample(maps, NULL, NULL, n, n, rgb);
+        sample_point(maps, NULL, NULL, n, n, rgb);
         for (int c = 0; c < 3 && k; c++)
             largest = fmax(largest, fabs(rgb[c] - before[c]));
         memcpy(before, rgb, sizeof before);
@@ -289,11 +290,11 @@ static void test_no_direction(void)
     int finite = 1;
 
     for (int k = 0; k < MODES; k++) {
-        pe_sample(maps, &modes[k], NULL, nowhere, up, rgb);
+        sample_point(maps, &modes[k], NULL, nowhere, up, rgb);
         finite &= isfinite(rgb[0]);
-        pe_sample(maps, &modes[k], NULL, up, zero, rgb);
+        sample_point(maps, &modes[k], NULL, up, zero, rgb);
         finite &= isfinite(rgb[0]);
-        pe_sample(maps, &modes[k], NULL, zero, nowhere, rgb);
+        sample_point(maps, &modes[k], NULL, zero, nowhere, rgb);
         finite &= isfinite(rgb[0]);
     }
     ok(finite, "a normal or viewer that is no direction gives a finite colour");

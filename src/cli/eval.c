@@ -37,11 +37,11 @@ typedef struct lookup {
     pe_sampling sampling;
 } lookup;
 
-static void look_up(const double n[3], const double o[3], const double direction[3], const void *data, double rgb[3])
+static void look_up(const pe_point *point, const void *data, double rgb[3])
 {
     const lookup *l = data;
 
-    pe_sample(l->maps, &l->sampling, direction, n, o, rgb);
+    pe_sample(l->maps, &l->sampling, point, rgb);
 }
 
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)

@@ -33,11 +33,11 @@ typedef struct truth {
     double direction[3];
 } truth;
 
-static void sum_up(const double n[3], const double o[3], const double direction[3], const void *data, double rgb[3])
+static void sum_up(const pe_point *point, const void *data, double rgb[3])
 {
     const truth *t = data;
 
-    pe_exact(t->env, &t->surface, direction ? direction : t->direction, n, o, rgb);
+    pe_exact(t->env, &t->surface, point->direction ? point->direction : t->direction, point->n, point->o, rgb);
 }
 
 static int answer_lines(const exact_settings *settings, const pe_surface *surface, const pe_env *env)

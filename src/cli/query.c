@@ -104,6 +104,7 @@ int query_answer(const char *line, size_t length, query_function *function, cons
 {
     static const char *const names[] = { "normal", "direction to the viewer", "brush direction" };
     double values[FIELDS_WITH_BRUSH], rgb[3];
+    pe_point point = { 0 };
     const char *first;
     int count;
 
@@ -122,6 +123,9 @@ int query_answer(const char *line, size_t length, query_function *function, cons
             snprintf(error, QUERY_ERROR_BYTES, "the %s 0 0 0 has no direction", names[i]);
             return -1;
         }
-    function(values, values + 3, count == FIELDS ? NULL : values + 6, data, rgb);
+    memcpy(point.n, values, sizeof point.n);
+    memcpy(point.o, values + 3, sizeof point.o);
+    point.direction = count == FIELDS ? NULL : values + 6;
+    function(&point, data, rgb);
     return format_answer(rgb, answer);
 }

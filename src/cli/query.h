@@ -3,13 +3,13 @@
 #define CLI_QUERY_H
 
 #include "decimal.h"
+#include "prefenv.h"
 
 #include <stddef.h>
 
-/* Radiance of a surface of normal n towards o, its brush along `direction`, or NULL where the line does not say; all
- * are finite, not zero, of any length. */
-typedef void query_function(const double n[3], const double o[3], const double direction[3], const void *data,
-                            double rgb[3]);
+/* Radiance of a point.  Its vectors are finite, not zero, of any length; direction is NULL where the line does not say
+ * where the brush points. */
+typedef void query_function(const pe_point *point, const void *data, double rgb[3]);
 
 enum {
     QUERY_LINE_MAX = 1024,                /* bytes of an input line without its end */
