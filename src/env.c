@@ -64,36 +64,85 @@ void pe_grid_free(pe_grid *grid)
 
 /* ---- loading ---- */
 
-/* The brightest finite value of each channel: what a positive infinity becomes. */
+/* Is it a radiance, or at least below 0 and of a size? */
+static bool is_sound(float value)
+{
+    return isfinite(value) && value <= PE_RADIANCE_MAX;
+}
+
+/* The brightest sound value of each channel: what a greater one becomes. */
 static void find_brightest(const float *rgb, size_t texels, float brightest[3])
 {
     memset(brightest, 0, 3 * sizeof *brightest);
     for (size_t texel = 0; texel < texels; texel++)
         for (int c = 0; c < 3; c++)
-            if (isfinite(rgb[3 * texel + (size_t)c]) && rgb[3 * texel + (size_t)c] > brightest[c])
+            if (is_sound(rgb[3 * texel + (size_t)c]) && rgb[3 * texel + (size_t)c] > brightest[c])
                 brightest[c] = rgb[3 * texel + (size_t)c];
 }
 
-static size_t repair(float *rgb, size_t texels)
+/* What was found: texels repaired, those of them that are no radiance at all, and the sum of values above 0 and that of
+ * what those below 0 fall short of it. */
+typedef struct repairs {
+    size_t texels, unsound;
+    double light, missing;
+} repairs;
+
+static void repair_texel(float *texel, const float brightest[3], repairs *found)
 {
+    bool unsound = false, negative = false;
+
+    for (int c = 0; c < 3; c++) {
+        float value = texel[c];
+
+        if (!is_sound(value))
+            texel[c] = value > 0 ? brightest[c] : 0;
+        else if (value < 0)
+            texel[c] = 0;
+        unsound |= !is_sound(value);
+        negative |= value < 0;
+        if (is_sound(value))
+            *(value < 0 ? &found->missing : &found->light) += fabs((double)value);
+    }
+    found->unsound += unsound;
+    found->texels += unsound || negative;
+}
+
+static repairs repair(float *rgb, size_t texels)
+{
+    repairs found = { 0 };
     float brightest[3];
-    size_t repairs = 0;
 
     find_brightest(rgb, texels, brightest);
-    for (size_t texel = 0; texel < texels; texel++) {
-        bool broken = false;
+    for (size_t texel = 0; texel < texels; texel++)
+        repair_texel(rgb + 3 * texel, brightest, &found);
+    return found;
+}
 
-        for (int c = 0; c < 3; c++) {
-            float *value = rgb + 3 * texel + c;
+static void add_remark(pe_env *env, const char *sentence)
+{
+    size_t used = strlen(env->remark);
 
-            if (isfinite(*value) && *value >= 0)
-                continue;
-            *value = isinf(*value) && *value > 0 ? brightest[c] : 0;
-            broken = true;
-        }
-        repairs += broken;
+    snprintf(env->remark + used, sizeof env->remark - used, "%s%s", used ? "; " : "", sentence);
+}
+
+/* Negative texels are what resampling leaves beside a lamp, and no harm, as long as they are dim. */
+#define MISSING_MAX 0.001
+
+static void remark_repairs(pe_env *env, const repairs *found)
+{
+    char sentence[128];
+
+    if (found->unsound) {
+        snprintf(sentence, sizeof sentence, "%zu of %zu texels, NaN, infinite or above %g, %s repaired", found->unsound,
+                 (size_t)env->width * (size_t)env->height, (double)PE_RADIANCE_MAX,
+                 found->unsound == 1 ? "was" : "were");
+        add_remark(env, sentence);
     }
-    return repairs;
+    if (found->missing > MISSING_MAX * found->light) {
+        snprintf(sentence, sizeof sentence, "%.2g %% of its light is negative and was left out",
+                 100 * found->missing / (found->light + found->missing));
+        add_remark(env, sentence);
+    }
 }
 
 /* Takes the picture's texels over. */
@@ -101,6 +150,7 @@ static pe_status make_env(pe_image *image, const char *name, pe_env **out, pe_er
 {
     pe_env *env = calloc(1, sizeof *env);
     pe_status status;
+    repairs found;
 
     if (!env)
         return pe_fail_memory(error, "an environment");
@@ -114,7 +164,9 @@ static pe_status make_env(pe_image *image, const char *name, pe_env **out, pe_er
     env->height = image->height;
     env->rgb = image->rgb;
     image->rgb = NULL;
-    env->repairs = repair(env->rgb, (size_t)env->width * (size_t)env->height);
+    found = repair(env->rgb, (size_t)env->width * (size_t)env->height);
+    env->repairs = found.texels;
+    remark_repairs(env, &found);
     *out = env;
     return PE_OK;
 }
@@ -128,16 +180,18 @@ static pe_status take_image(pe_status status, pe_image *image, const char *name,
 }
 
 /* Neither keeps anybody from using the picture, and both give results that look wrong for no visible reason. */
-static void remark(pe_env *env, bool is_png)
+static void remark_file(pe_env *env, bool is_png)
 {
-    char shape[128] = "";
-    const char *light = "a PNG holds no light brighter than white, so suns and lamps are lost; "
-                        "OpenEXR or Radiance HDR keep them";
+    char shape[128];
 
-    if (env->width != 2 * env->height)
+    if (env->width != 2 * env->height) {
         snprintf(shape, sizeof shape, "%d x %d texels are not twice as wide as high, as a whole sphere is", env->width,
                  env->height);
-    snprintf(env->remark, sizeof env->remark, "%s%s%s", shape, *shape && is_png ? "; " : "", is_png ? light : "");
+        add_remark(env, shape);
+    }
+    if (is_png)
+        add_remark(env, "a PNG holds no light brighter than white, so suns and lamps are lost; "
+                        "OpenEXR or Radiance HDR keep them");
 }
 
 pe_status pe_env_read(const char *path, pe_env **env, pe_error *error)
@@ -160,7 +214,7 @@ pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, p
         take_image(pe_image_read_memory(bytes, size, name, &image, error), &image, pe_base_name(name), env, error);
 
     if (status == PE_OK)
-        remark(*env, pe_png_detect(bytes, size));
+        remark_file(*env, pe_png_detect(bytes, size));
     return status;
 }
 

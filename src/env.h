@@ -27,7 +27,7 @@ struct pe_env {
     float *rgb;
     char *name;
     size_t repairs;
-    char remark[256]; /* see pe_env_remark */
+    char remark[512]; /* see pe_env_remark */
     pe_grid grid;
 };
 

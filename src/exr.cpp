@@ -425,6 +425,18 @@ bool pe_exr_get_attribute(const pe_exr_file *file, int part, pe_attribute *attri
     return false;
 }
 
+int pe_exr_carries(const void *bytes, size_t size, pe_attribute *attribute)
+{
+    const auto *from = static_cast<const unsigned char *>(bytes);
+    pe_exr_file *file;
+
+    if (!pe_exr_detect(from, size) || pe_exr_open(from, size, "", &file, nullptr) != PE_OK)
+        return 0;
+    const bool found = pe_exr_get_attribute(file, 0, attribute);
+    pe_exr_close(file);
+    return found;
+}
+
 pe_status pe_exr_read_part(const pe_exr_file *file, int part, float *rgb, pe_error *error)
 {
     const char *name = file->name.c_str();

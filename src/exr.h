@@ -65,6 +65,9 @@ void pe_exr_part_size(const pe_exr_file *file, int part, long long *width, long 
 /* Fills the field that attribute->type asks for; false if the part has no such attribute of that type. */
 bool pe_exr_get_attribute(const pe_exr_file *file, int part, pe_attribute *attribute);
 
+/* Do these bytes start an OpenEXR file whose first part has such an attribute, which is filled in?  Non-zero if so. */
+int pe_exr_carries(const void *bytes, size_t size, pe_attribute *attribute);
+
 /* R, G, B of a whole part into 3 * width * height floats. */
 pe_status pe_exr_read_part(const pe_exr_file *file, int part, float *rgb, pe_error *error);
 

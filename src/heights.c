@@ -20,6 +20,13 @@ void pe_heights_free(pe_heights *heights)
 
 /* ---- read ---- */
 
+int pe_heights_detect(const void *bytes, size_t size)
+{
+    pe_attribute pitch = { .name = PITCH_ATTRIBUTE, .type = PE_ATTRIBUTE_DOUBLE };
+
+    return pe_exr_carries(bytes, size, &pitch);
+}
+
 /* The distance of texels that the file itself states; 0 if it does not. */
 static pe_status find_pitch(const unsigned char *bytes, size_t size, const char *name, double *pitch, pe_error *error)
 {
@@ -41,19 +48,16 @@ static pe_status find_pitch(const unsigned char *bytes, size_t size, const char 
     return PE_OK;
 }
 
-static pe_status find_scale(const unsigned char *bytes, size_t size, const char *name, double *unit, double *pitch,
-                            pe_error *error)
+/* What is not given is as the file says. */
+static pe_status find_scale(const char *name, double own_pitch, double *unit, double *pitch, pe_error *error)
 {
-    pe_status status;
-
     if (*unit == 0 && *pitch == 0) {
-        status = find_pitch(bytes, size, name, pitch, error);
-        if (status != PE_OK)
-            return status;
-        if (*pitch == 0)
+        if (own_pitch == 0)
             return pe_fail(error, PE_ERROR_ARGUMENT,
-                           "%s: does not say its scale; give the height of the value 1 and the pitch of the texels",
+                           "%s: does not say its scale; give the height of the value 1 and the pitch of the texels "
+                           "(--height 20um --pitch 1.5um), or the one divided by the other (--scale)",
                            name);
+        *pitch = own_pitch;
         *unit = 1;
     }
     if (!(*unit > 0 && *pitch > 0 && isfinite(*unit / *pitch)))
@@ -104,13 +108,18 @@ pe_status pe_heights_read_memory(const void *bytes, size_t size, const char *nam
                                  pe_heights *heights, pe_error *error)
 {
     pe_image image;
+    double own_pitch;
     pe_status status = pe_image_read_data_memory(bytes, size, name, &image, error);
 
     if (status != PE_OK)
         return status;
-    status = find_scale(bytes, size, name, &unit, &pitch, error);
+    status = find_pitch(bytes, size, name, &own_pitch, error);
+    if (status == PE_OK)
+        status = find_scale(name, own_pitch, &unit, &pitch, error);
     if (status == PE_OK)
         status = take_heights(&image, name, unit, pitch, heights, error);
+    if (status == PE_OK)
+        heights->own_pitch = own_pitch;
     pe_image_free(&image);
     return status;
 }

@@ -16,7 +16,8 @@
 #define SIDE_MAX 8192
 #define LENGTH_TEXELS_MIN 4 /* a shorter correlation is not resolved */
 #define LENGTHS_ACROSS_MIN 4
-#define REACH 5 /* of the blur, in standard deviations */
+#define FEED_TEXELS_MIN 8 /* slopes are measured over seven texels, which must not see past a groove */
+#define REACH 5           /* of the blur, in standard deviations */
 
 /* ---- options ---- */
 
@@ -56,6 +57,11 @@ static pe_status check_grooves(const pe_machining_options *o, pe_error *error)
 {
     pe_status status = check_positive("a feed", o->feed, o->pitch * o->height, error);
 
+    if (status == PE_OK && o->feed < FEED_TEXELS_MIN * o->pitch)
+        status = pe_fail(error, PE_ERROR_ARGUMENT,
+                         "a feed of %g is narrower than %d texels of a pitch of %g, which do not resolve it; the feed "
+                         "is at least %g, or the pitch at most %g",
+                         o->feed, FEED_TEXELS_MIN, o->pitch, FEED_TEXELS_MIN * o->pitch, o->feed / FEED_TEXELS_MIN);
     if (status == PE_OK && o->kind == PE_TURNED) {
         status = check_positive("a radius", o->radius, 1e9 * o->pitch, error);
         if (status == PE_OK && o->feed > o->radius)

@@ -1,6 +1,7 @@
 /* maps.c - a set of maps in memory: made, described, released. */
 #include "maps.h"
 
+#include "atlas.h"
 #include "parallel.h"
 #include "spline.h"
 #include "status.h"
@@ -67,6 +68,18 @@ static pe_status check_angles(const pe_maps_info *info, pe_error *error)
     return PE_OK;
 }
 
+/* An atlas has room for a few more hemispheres than there are. */
+static size_t stored_texels(const pe_maps_info *info)
+{
+    size_t texels = (size_t)info->width * (size_t)info->height;
+    pe_atlas atlas;
+
+    if (info->method != PE_METHOD_HEMISPHERES)
+        return texels * (size_t)info->images;
+    atlas = pe_atlas_of(info->normals, info->width, info->height);
+    return texels * (size_t)(atlas.rows * atlas.columns) * (size_t)info->angles;
+}
+
 static pe_status check_size(const pe_maps_info *info, pe_error *error)
 {
     int least = info->method == PE_METHOD_HEMISPHERES ? PE_DISC_SIDE_MIN : 2;
@@ -75,7 +88,7 @@ static pe_status check_size(const pe_maps_info *info, pe_error *error)
         info->height > PE_MAPS_SIDE_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "size %d x %d is out of range; each side lies between %d and %d",
                        info->width, info->height, least, PE_MAPS_SIDE_MAX);
-    if ((size_t)info->width * (size_t)info->height > PE_MAPS_TEXELS_MAX / (size_t)info->images)
+    if (stored_texels(info) > PE_MAPS_TEXELS_MAX)
         return pe_fail(error, PE_ERROR_LIMIT,
                        "%d maps of %d x %d are more than can be held; make them fewer, or smaller than %zu texels each",
                        info->images, info->width, info->height, PE_MAPS_TEXELS_MAX / (size_t)info->images);

@@ -14,7 +14,7 @@
 #define PE_MAPS_SIDE_MAX 8192
 #define PE_MAPS_ANGLES_MIN 4 /* unless 1 */
 #define PE_MAPS_ANGLES_MAX 64
-#define PE_MAPS_TEXELS_MAX ((size_t)1 << 28) /* of all images together: 3 GiB of floats */
+#define PE_MAPS_TEXELS_MAX PE_IMAGE_TEXELS_MAX /* of all images together, as they are stored: 1.5 GiB of floats */
 
 struct pe_maps {
     pe_maps_info info;

@@ -349,7 +349,7 @@ static pe_status read_sun(const header *from, int k, pe_suns *suns)
     name_sun(k, "power", name);
     AND_THEN(get_vector(from, 0, name, suns->power[k]))
     for (int c = 0; status == PE_OK && c < 3; c++)
-        if (!(suns->power[k][c] >= 0 && suns->power[k][c] < 1e30))
+        if (!(suns->power[k][c] >= 0 && suns->power[k][c] <= 4 * M_PI * (double)PE_RADIANCE_MAX))
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not a radiance times solid angle", from->name,
                            name);
     suns->count = k + 1;
@@ -570,12 +570,6 @@ pe_status pe_maps_read(const char *path, pe_maps **maps, pe_error *error)
 int pe_maps_detect(const void *bytes, size_t size)
 {
     pe_attribute version = integer("prefenv:version", 0);
-    pe_exr_file *file;
-    int found;
 
-    if (!pe_exr_detect(bytes, size) || pe_exr_open(bytes, size, "", &file, NULL) != PE_OK)
-        return 0;
-    found = pe_exr_get_attribute(file, 0, &version);
-    pe_exr_close(file);
-    return found;
+    return pe_exr_carries(bytes, size, &version);
 }

@@ -220,6 +220,16 @@ const char *pe_ndf_table_name(const pe_ndf_table *table)
     return table->name;
 }
 
+void pe_ndf_table_size(const pe_ndf_table *table, int *width, int *height, double p_range[2], double q_range[2])
+{
+    *width = table->width;
+    *height = table->height;
+    p_range[0] = table->p_min;
+    p_range[1] = table->p_min + table->width * table->p_step;
+    q_range[0] = table->q_min;
+    q_range[1] = table->q_min + table->height * table->q_step;
+}
+
 void pe_ndf_table_alpha(const pe_ndf_table *table, double alpha[2])
 {
     alpha[0] = table->alpha[0];
@@ -341,8 +351,9 @@ static pe_status read_ranges(const pe_exr_file *file, const char *name, double p
     pe_attribute version = version_attribute();
 
     if (!pe_exr_get_attribute(file, 0, &version))
-        return pe_fail(error, PE_ERROR_FORMAT, "%s: is not a table of slopes: it has no attribute %s", name,
-                       version.name);
+        return pe_fail(error, PE_ERROR_FORMAT,
+                       "%s: is not a table of slopes; make one of a height field or a normal map with prefenv ndf",
+                       name);
     if (version.integer != VERSION)
         return pe_fail(error, PE_ERROR_FORMAT, "%s: is a table of slopes of version %d, and %d is read here", name,
                        version.integer, VERSION);
@@ -397,6 +408,13 @@ static pe_status read_table(const pe_exr_file *file, const char *name, pe_ndf_ta
     if (status != PE_OK)
         return pe_fail(error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", name, inner.message);
     return PE_OK;
+}
+
+int pe_ndf_table_detect(const void *bytes, size_t size)
+{
+    pe_attribute version = version_attribute();
+
+    return pe_exr_carries(bytes, size, &version);
 }
 
 pe_status pe_ndf_table_read_memory(const void *bytes, size_t size, const char *name, pe_ndf_table **table,

@@ -88,8 +88,10 @@ double pe_srgb_decode(double encoded);
 /* A lat-long environment: radiance from every direction. */
 typedef struct pe_env pe_env;
 
-/* Reads what pe_image_read reads.  NaN, infinite and negative values are repaired (0; a positive infinity becomes the
- * largest finite value of its channel) and counted: see pe_env_repairs. */
+#define PE_RADIANCE_MAX 1e30f /* of a texel: sums and powers of such are floats, still */
+
+/* Reads what pe_image_read reads.  Values that are NaN, negative, infinite or above PE_RADIANCE_MAX are repaired (0; the
+ * infinite and those above become the largest of their channel that is not) and counted: see pe_env_repairs. */
 pe_status pe_env_read(const char *path, pe_env **env, pe_error *error);
 pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, pe_env **env, pe_error *error);
 
@@ -103,7 +105,7 @@ int pe_env_height(const pe_env *env);
 const float *pe_env_texels(const pe_env *env); /* 3 * width * height floats, rows from +y down */
 const char *pe_env_name(const pe_env *env);    /* the file's name without its folder; "" if made from memory */
 size_t pe_env_repairs(const pe_env *env);      /* texels repaired on load */
-const char *pe_env_remark(const pe_env *env);  /* what of a file is doubtful as an environment, a sentence; or "" */
+const char *pe_env_remark(const pe_env *env);  /* what is doubtful as an environment, a sentence; or "" */
 
 /* Radiance from `direction` (any length but zero), bilinear between texel centres, over the poles and around. */
 void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);
@@ -150,6 +152,12 @@ pe_status pe_ndf_table_write(const pe_ndf_table *table, const char *path, pe_err
 pe_status pe_ndf_table_read(const char *path, pe_ndf_table **table, pe_error *error);
 pe_status pe_ndf_table_read_memory(const void *bytes, size_t size, const char *name, pe_ndf_table **table,
                                    pe_error *error);
+
+/* Do these bytes start an OpenEXR file that is a table?  Non-zero if so. */
+int pe_ndf_table_detect(const void *bytes, size_t size);
+
+/* Cells, and the slopes they reach from and to. */
+void pe_ndf_table_size(const pe_ndf_table *table, int *width, int *height, double p_range[2], double q_range[2]);
 
 const char *pe_ndf_table_name(const pe_ndf_table *table); /* the file's name without its folder; "" if made */
 void pe_ndf_table_alpha(const pe_ndf_table *table, double alpha[2]); /* sqrt 2 times the rms slope along t, b */
@@ -203,8 +211,9 @@ const char *pe_material_name(int index);
 typedef struct pe_heights {
     int width, height;
     double pitch;
-    double step;   /* by which the source rounds heights; 0 if that is not to be seen */
-    float *values; /* width * height, rows from the top */
+    double own_pitch; /* that the file states, whatever was asked for; 0 if none */
+    double step;      /* by which the source rounds heights; 0 if that is not to be seen */
+    float *values;    /* width * height, rows from the top */
 } pe_heights;
 
 #define PE_HEIGHTS_SIDE_MIN 8 /* texels; a smaller field has no slopes worth measuring */
@@ -215,6 +224,9 @@ typedef struct pe_heights {
 pe_status pe_heights_read(const char *path, double unit, double pitch, pe_heights *heights, pe_error *error);
 pe_status pe_heights_read_memory(const void *bytes, size_t size, const char *name, double unit, double pitch,
                                  pe_heights *heights, pe_error *error);
+
+/* Do these bytes start an OpenEXR file that pe_heights_write wrote?  Non-zero if so. */
+int pe_heights_detect(const void *bytes, size_t size);
 
 /* Writes an OpenEXR of float heights with its pitch.  The file appears whole or not at all. */
 pe_status pe_heights_write(const pe_heights *heights, const char *path, pe_error *error);

@@ -62,10 +62,32 @@ ok "a file that exists is replaced" cmp old.exr t1.exr
 oiiotool env.exr --fill:color=-1,0,0 2x1+0+0 -o negative.exr
 # shellcheck disable=SC2086
 said=$("$PREFENV" bake negative.exr -o n.exr $quick 2>&1)
-is "$(grep -c 'warning: negative.exr: 2 of [0-9]* texels, .* were repaired' <<<"$said")" 1 \
-    "repaired texels are counted in one warning"
+like "$said" '^n.exr: 6 maps .*, exact; 2 source texels repaired$' "repaired texels are counted in the summary"
+is "$("$PREFENV" bake env.hdr -o n.exr --json --paper --size 8x4 | jq .repairs)" 0 "and in JSON: none"
+like "$said" 'warning: negative.exr: [0-9.]+ % of its light is negative and was left out' "much of them is warned of"
 # shellcheck disable=SC2086
 is "$("$PREFENV" bake negative.exr -o n.exr -q $quick 2>&1)" "" "which --quiet leaves out"
+oiiotool env.exr --fill:color=-0.001,0,0 2x1+0+0 -o dim.exr
+# shellcheck disable=SC2086
+said=$("$PREFENV" bake dim.exr -o n.exr $quick 2>&1)
+is "$(wc -l <<<"$said") $(grep -c '2 source texels repaired' <<<"$said")" "1 1" "little of them is not"
+for value in nan inf 3e38; do
+    oiiotool env.exr -d float --fill:color=$value,0,0 1x1+3+3 -o $value.exr
+    # shellcheck disable=SC2086
+    like "$("$PREFENV" bake $value.exr -o n.exr $quick 2>&1)" \
+        "warning: $value.exr: 1 of 128 texels, NaN, infinite or above 1e\+30, was repaired" "$value is warned of"
+done
+
+# What the baker takes, the reader takes.
+for value in 3e38 9e29; do
+    oiiotool env.exr --resize 64x32 -d float --fill:color=$value,$value,$value 1x1+20+9 -o sun.exr
+    "$PREFENV" bake sun.exr -o sun.pe.exr --alpha 0.3 --normals 12 --size 12x12 --quiet
+    ok "maps of a texel of $value are read" "$PREFENV" info sun.pe.exr
+done
+is "$("$PREFENV" info --json sun.pe.exr | jq .suns)" 1 "the last had a sun"
+said=$("$PREFENV" bake env.hdr -o n.exr --normals 10242 --size 120x120 2>&1)
+is "$? $said" "2 prefenv: bake: 10242 maps of 120 x 120 are more than can be held; make them fewer, or smaller than \
+13104 texels each" "more maps than the reader takes are refused before they are made"
 
 oiiotool env.exr --resize 32x32 -o square.exr
 # shellcheck disable=SC2086
@@ -78,6 +100,10 @@ like "$("$PREFENV" bake env.png -o n.exr $quick 2>&1)" 'warning: env.png: a PNG 
 said=$("$PREFENV" bake negative.exr -o e.exr --error 0.0005 --normals 12 --size 8x8 2>&1)
 like "$said" "warning: e.exr: the error of lookups is [0-9.]+ %, not the 0.05 % asked for; give more --normals" \
     "an error that was not reached is told"
+oiiotool --pattern noise:type=uniform:min=0:max=1 256x128 3 -d half -o noise.exr
+said=$("$PREFENV" bake noise.exr -o e.exr --paper --fast --size 40x20 --alpha 0.4 --ndf ggx --error 0.0005 2>&1)
+like "$said" "warning: e.exr: the error of texels is [0-9.]+ %, not the 0.05 % asked for; --exact has none$" \
+    "of lat-long maps that of their texels"
 
 oiiotool env.exr --mulc 1e6 -d float -o sun.exr
 # shellcheck disable=SC2086
@@ -146,6 +172,8 @@ refused "a folder" "folder: is a folder" folder
 refused "a folder that is missing" "nowhere/x.exr: cannot write into nowhere: No such file" nowhere/x.exr
 refused "a file as a folder" "env.hdr/x.exr: env.hdr is not a folder" env.hdr/x.exr
 refused "no name" "the output's name is empty" ""
+refused "a PNG" "x.y.png: what is written is an OpenEXR; name it so, x.y.exr" x.y.png
+refused "a TIFF" "x.TIFF: what is written is an OpenEXR; name it so, x.exr" x.TIFF
 refused "a full device" "/dev/full: cannot write: No space left on device" /dev/full
 if [ "$(id -u)" -ne 0 ]; then
     mkdir closed && chmod a-w closed

@@ -58,8 +58,12 @@ near "a PNG of 16 bits" "$(measured '.alpha[1]' turned.png --wrap --height 8um -
 ok "--scale is --height over --pitch" "$PREFENV" diff a.ndf.exr b.ndf.exr --fail-above-relative 1e-5
 near "twice as high, twice as steep" "$(measured '.rms_slope[1]' turned.png --scale 16)" \
     "$(measured '2 * .rms_slope[1]' turned.png --scale 8)" 1e-5
-near "a scale given outdoes the file's own" "$(measured '.rms_slope[1]' turned.exr --height 3um --pitch 1um)" \
+near "a scale given outdoes the file's own" "$(measured '.rms_slope[1]' turned.exr --height 3um --pitch 1um -q)" \
     "$(measured '3 * .rms_slope[1]' turned.exr)" 1e-5
+like "$("$PREFENV" ndf turned.exr -o x.ndf.exr --scale 3 2>&1 >/dev/null)" \
+    '^prefenv: ndf: warning: turned.exr: states its scale, a pitch of 1 um, which the one given takes the place of$' \
+    "which is said"
+is "$("$PREFENV" ndf turned.exr -o x.ndf.exr --scale 3 -q 2>&1)" "" "but not with --quiet"
 
 # A part that lay askew: 0.002 of the height range a texel along x, so a slope of -0.016.
 oiiotool --pattern "fill:left=0,0,0:right=0.05,0.05,0.05" 512x512 3 -d float -o ramp.exr
@@ -113,7 +117,8 @@ is "$("$PREFENV" ndf turned.png -o x.ndf.exr --scale 8 2>&1 >/dev/null)" "" "16 
 
 # ---- refused ----
 
-refused "no scale" "turned.png: does not say its scale; give the height of the value 1 and the pitch" turned.png
+refused "no scale" "turned.png: does not say its scale; give the height .* pitch .*--height 20um --pitch 1.5um.*--scale" \
+    turned.png
 refused "a pitch alone" "--height is missing" turned.png --pitch 1um
 refused "a height alone" "--pitch is missing" turned.png --height 1um
 refused "two scales" "--scale is --height divided by --pitch" turned.png --scale 1 --height 1um --pitch 1um
@@ -131,5 +136,24 @@ oiiotool --pattern constant:color=0,0,0 16x16 3 -d uint8 -o black.png
 refused "black normals" "black.png: no texel holds a normal that faces out" black.png --normal-map opengl
 refused "a range of nothing" "--range 0: out of range: 0.004 to 100" turned.exr --range 0
 like "$("$PREFENV" ndf turned.exr -o turned.exr 2>&1)" "turned.exr" "the surface itself is not written over"
+
+# ---- what the files say of themselves ----
+
+"$PREFENV" ndf turned.exr -o a.ndf.exr --wrap --json >said || bail_out "ndf does not work"
+info=$("$PREFENV" info --json a.ndf.exr)
+is "$(jq -c '[.file, .kind, .width, .height]' <<<"$info")" \
+    "[\"a.ndf.exr\",\"table\",$(jq .width said),$(jq .height said)]" "info of a table: its size"
+near "its width" "$(jq '.alpha[1]' <<<"$info")" "$(jq '.alpha[1]' said)" 0.02
+near "and rms slope" "$(jq '.rms_slope[1]' <<<"$info")" "$(jq '.rms_slope[1]' said)" 0.02
+like "$("$PREFENV" info a.ndf.exr)" '^kind       table of slopes, for bake --ndf$' "and in text"
+info=$("$PREFENV" info --json turned.exr)
+is "$(jq -c '[.kind, .width, .height, .pitch]' <<<"$info")" '["heights",512,512,1]' "info of heights: size and pitch"
+near "and width" "$(jq '.alpha[1]' <<<"$info")" "$(measured '.alpha[1]' turned.exr)" 1e-9
+like "$("$PREFENV" info turned.exr)" '^heights    512x512 texels of 1 um, 512 by 512 um$' "and in text"
+for input in turned.exr turned.png; do
+    said=$("$PREFENV" bake missing.hdr -o x.exr --ndf $input 2>&1)
+    like "$said" "^prefenv: bake: $input: is not .*; make (a table of slopes|one of .*) with prefenv ndf$" \
+        "bake --ndf $input points to prefenv ndf"
+done
 
 done_testing

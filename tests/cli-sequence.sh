@@ -124,6 +124,15 @@ refused "--shard alone" "--shard is for sequences; give --frames, too" in_0008.e
 refused "--force alone" "--force is for sequences; give --frames, too" in_0008.exr -o x_1.exr --force
 refused "a missing frame" "in_0026.exr: No such file or directory; --frames 8-30 needs it" $in -o $out --frames 8-30
 refused "its own input" "in_0008.exr: is the input in_0008.exr itself" $in -o $in --frames 8-9
+mkdir links
+ln -s ../in_0008.exr links/8.exr
+ln -s ../in_0009.exr links/9.exr
+ln -s ../in_0009.exr links/x_8.exr
+refused "the input of a later frame" \
+    "links/x_8.exr, the output of frame 8, is links/9.exr, the input of frame 9; give other names after -o" \
+    links/%d.exr -o links/x_%d.exr --frames 8-9
+refused "of another machine's share" "links/x_8.exr, the output of frame 8, is links/9.exr" \
+    links/%d.exr -o links/x_%d.exr --frames 8-9 --shard 1/2
 refused "a folder that is not there" "nowhere/x_8.exr: cannot write into nowhere" $in -o nowhere/$out --frames 8-9
 
 oiiotool in_0010.exr --resize 32x16 -o other.exr && mv other.exr in_0010.exr

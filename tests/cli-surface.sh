@@ -48,6 +48,8 @@ refused "a unit like no other" "--pitch 1parsec: a length is wanted, as in 1.5um
 refused "no number" "--feed um: a length is wanted" turned -o x.exr --feed um
 refused "three lengths" "one length is wanted, or two as in 40um,8um" turned -o x.exr --length 1um,2um,3um
 refused "too short" "length of 3 along x must lie between 4, 4 texels, and 256" turned -o x.exr --length 3um
+refused "too fine a feed" "a feed of 7 is narrower than 8 texels of a pitch of 1, .*; the feed is at least 8, or" \
+    milled -o x.exr --feed 7um
 refused "too coarse a tool" "feed of 500 with a radius of 400 is not turning" turned -o x.exr --feed 0.5mm
 refused "a folder that is not there" "nowhere" turned -o nowhere/x.exr
 is "$(ls -A | grep -v '^\(turned\|milled\|blasted\|brushed\|again\|um\|mm\)\.exr$')" "" "nothing else is left behind"

@@ -90,6 +90,8 @@ refused "option cut too short" "diff: --fail could be --fail-above or --fail-abo
 refused "option without its value" "bake: --alpha needs a value: --alpha A" bake --alpha
 refused "value for a switch" "info: --json takes no value" info --json=yes
 refused "missing operand" "bake: ENV is missing" bake -o y.exr
+refused "a PNG of slopes" "ndf: x.png: what is written is an OpenEXR; name it so, x.exr" ndf x.exr -o x.png
+refused "a PNG of heights" "surface: x.png: what is written is an OpenEXR" surface turned -o x.png
 refused "missing output" "bake: -o MAPS is missing" bake x.hdr
 refused "operand too many" "info: 'b' is one argument too many" info a b
 
@@ -118,7 +120,10 @@ done <<'TABLE'
 --material gold|--material, --ior and --k are for --weight microfacet
 --weight microfacet --material unobtainium|--material unobtainium: not known
 --weight microfacet --material golf|did you mean gold?
+--weight microfacet --material brass|brass: not known; what there is: aluminium, .*, titanium; or give --ior and --k
 --weight microfacet --material gold --k 1,1,1|exclude each other
+--weight microfacet --ior 1.5,1.5,1.5 --k 0,0,0|x.hdr: cannot open: No such file
+--weight microfacet --ior 0,0,0 --k 0,0,0|the zero vector has no direction
 --weight microfacet --ior 0.1,2,2 --k 0.2,1,1|of red is no conductor
 --weight microfacet --ndf phong|does not go with ndf phong
 --weight best|not known; what there is: ndf, microfacet
@@ -135,6 +140,29 @@ is "$(ls)" "" "nothing was written"
 
 refused "exponent without weighted" "--exponent is for --interpolation weighted" eval x.exr --exponent 50
 refused "unknown interpolation" "what there is: nearest, weighted, linear" eval x.exr --interpolation cubic
+
+like "$(out eval --help | tr '\n' ' ')" "'nx ny nz ox oy oz dx dy dz', with the brush direction" \
+    "eval says that nine will do"
+# The defaults that the help of surface states are those of the library.
+while read -r kind option value; do
+    like "$("$PREFENV" surface --help | tr -s ' \n' ' ')" "--$option [^[]* Default: [^[]*$value" \
+        "surface: --$option, $value"
+    "$PREFENV" surface "$kind" -o default.exr -q && "$PREFENV" surface "$kind" -o given.exr -q "--$option" "$value"
+    ok "it is the default of $kind" cmp default.exr given.exr
+    rm -f default.exr given.exr
+done <<'TABLE'
+turned feed 100um
+milled feed 128um
+turned radius 400um
+milled slope 0.12
+turned roughness 0.04um
+milled roughness 0.06um
+blasted roughness 0.4um
+brushed roughness 0.6um
+turned length 16um,8um
+blasted length 8um
+brushed length 40um,8um
+TABLE
 
 # ---- output that cannot be written ----
 

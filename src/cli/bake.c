@@ -74,7 +74,8 @@ static const cli_option options[] = {
     { "quality", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, quality), 0, 0, qualities, "normal", 0,
       "how much memory normals and sizes may take: normal, 10 MB; high, 64 MB" },
     { "error", 0, "E", CLI_NUMBER, offsetof(bake_settings, error), 0.0005, 0.1, NULL, NULL, 0,
-      "the relative error wanted of what is looked up: 0.01 is one percent. Default: what --quality gives" },
+      "the relative error wanted of what is looked up, of lat-long maps that of their texels: 0.01 is one percent. "
+      "Default: what --quality gives" },
     { "exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,
       "weigh every texel of the environment. Default: exact up to 128x64 texels of ENV, fast above" },
     { "fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
@@ -132,10 +133,10 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
 
 /* ---- one ---- */
 
-static void print_summary(const bake_settings *settings, const pe_maps *maps, double seconds)
+static void print_summary(const bake_settings *settings, const batch *b, double seconds)
 {
-    const pe_maps_info *info = pe_maps_get_info(maps);
-    char accuracy[DESCRIBE_BYTES];
+    const pe_maps_info *info = pe_maps_get_info(b->maps);
+    char accuracy[DESCRIBE_BYTES], repairs[64] = "";
     struct stat status;
     double bytes = stat(settings->output, &status) == 0 ? (double)status.st_size : 0;
 
@@ -146,6 +147,7 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
         json_text(&out, "file", settings->output);
         json_integer(&out, "bytes", (long long)bytes);
         json_number(&out, "seconds", seconds);
+        json_integer(&out, "repairs", (long long)b->repairs);
         describe_maps_json(&out, info);
         json_close(&out);
         return;
@@ -153,8 +155,10 @@ static void print_summary(const bake_settings *settings, const pe_maps *maps, do
     if (settings->quiet)
         return;
     describe_accuracy(info, accuracy);
-    fprintf(stderr, "%s: %d %s of %dx%d, %.1f MB, in %.1f s, %s\n", settings->output, info->images,
-            info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy);
+    if (b->repairs)
+        snprintf(repairs, sizeof repairs, "; %zu source %s repaired", b->repairs, b->repairs == 1 ? "texel" : "texels");
+    fprintf(stderr, "%s: %d %s of %dx%d, %.1f MB, in %.1f s, %s%s\n", settings->output, info->images,
+            info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy, repairs);
 }
 
 static int bake_one(const bake_settings *settings, batch *b, double begun)
@@ -162,13 +166,13 @@ static int bake_one(const bake_settings *settings, batch *b, double begun)
     const char *inputs[] = { settings->environment, settings->surface.ndf, NULL };
     int result;
 
-    if (cli_check_output("bake", settings->output, inputs) != CLI_SUCCESS)
+    if (cli_check_exr_output("bake", settings->output, inputs) != CLI_SUCCESS)
         return CLI_FAILURE;
     b->count = 1;
     result = batch_make(b, settings->environment, settings->output);
     batch_end(b);
     if (result == CLI_SUCCESS)
-        print_summary(settings, b->maps, clock_seconds() - begun);
+        print_summary(settings, b, clock_seconds() - begun);
     return result;
 }
 
@@ -202,7 +206,7 @@ static int check_frame(const bake_settings *settings, const char *environment, c
 
     (void)b;
     if (stat(environment, &about) == 0)
-        return cli_check_output("bake", output, inputs);
+        return cli_check_exr_output("bake", output, inputs);
     cli_error("bake", "%s: %s; --frames %s needs it", environment, strerror(errno), settings->frames);
     return CLI_FAILURE;
 }
@@ -252,12 +256,14 @@ static void print_sequence(const bake_settings *settings, const batch *b, double
 static int bake_sequence(const bake_settings *settings, batch *b, double begun)
 {
     int result;
-    frames f;
+    frames all, f; /* of other machines' shares only the names matter */
 
-    if (frames_parse("bake", settings->frames, settings->shard, &f) != CLI_SUCCESS ||
+    if (frames_parse("bake", settings->frames, NULL, &all) != CLI_SUCCESS ||
+        frames_parse("bake", settings->frames, settings->shard, &f) != CLI_SUCCESS ||
         frames_check_pattern("bake", settings->environment) != CLI_SUCCESS ||
         frames_check_pattern("bake", settings->output) != CLI_SUCCESS ||
-        for_each_frame(settings, &f, check_frame, b) != CLI_SUCCESS)
+        for_each_frame(settings, &f, check_frame, b) != CLI_SUCCESS ||
+        frames_check_overwriting("bake", settings->environment, settings->output, &all) != CLI_SUCCESS)
         return CLI_FAILURE;
     b->count = frames_count(&f);
     result = for_each_frame(settings, &f, bake_frame, b);

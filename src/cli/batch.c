@@ -69,15 +69,16 @@ static pe_status write_maps(batch *b, const char *output, pe_error *error)
 /* What was asked for may take more memory than the choice may, or a harder environment than it knows. */
 static void warn_of_error(batch *b, const char *output)
 {
-    double wanted = b->options.error, reached = pe_maps_get_info(b->maps)->lookup_error;
+    const pe_maps_info *info = pe_maps_get_info(b->maps);
+    int of_lookups = info->method == PE_METHOD_HEMISPHERES; /* of lat-long maps only texels are measured */
+    double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
 
     if (b->quiet || b->made > 0 || !(wanted > 0 && reached > wanted))
         return;
     progress_clear(&b->bar);
-    cli_warning("bake",
-                "%s: the error of lookups is %.2g %%, not the %.2g %% asked for; give more --normals, and a larger "
-                "--size",
-                output, 100 * reached, 100 * wanted);
+    cli_warning("bake", "%s: the error of %s is %.2g %%, not the %.2g %% asked for; %s", output,
+                of_lookups ? "lookups" : "texels", 100 * reached, 100 * wanted,
+                of_lookups ? "give more --normals, and a larger --size" : "--exact has none");
 }
 
 static int bake_file(batch *b, const pe_env *env, const char *environment, const char *output)
@@ -87,7 +88,8 @@ static int bake_file(batch *b, const pe_env *env, const char *environment, const
 
     pe_maps_free(b->maps);
     b->maps = NULL;
-    if (!b->quiet && (pe_env_repairs(env) || *pe_env_remark(env))) {
+    b->repairs = pe_env_repairs(env);
+    if (!b->quiet && *pe_env_remark(env)) {
         progress_clear(&b->bar);
         cli_warn_of_flaws("bake", environment, env);
     }

@@ -15,6 +15,7 @@ typedef struct batch {
 
     /* what became of it */
     int made, left;
+    size_t repairs;        /* texels repaired of the environment read last */
     pe_maps *maps;         /* those made last, or NULL */
     pe_bake_errors errors; /* the greatest estimated so far: what maps record that are not looked at themselves */
 

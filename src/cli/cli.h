@@ -20,7 +20,7 @@ __attribute__((format(printf, 2, 3))) void cli_warning(const char *command, cons
 /* Reads an environment image as pe_env_read does, but not a maps file. */
 pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error);
 
-/* One warning if texels of the environment read from `path` were repaired. */
+/* One warning if the environment read from `path` is doubtful. */
 void cli_warn_of_flaws(const char *command, const char *path, const pe_env *env);
 
 /* The word among `count` that is nearest to what was typed, or NULL if none is near enough to be meant. */
@@ -32,5 +32,8 @@ int cli_flush(const char *command);
 /* Can `output` be written?  Its folder must exist, it must not be a folder itself, and it must be none of
  * `inputs` (ended by NULL).  CLI_FAILURE, with its error printed, if not. */
 int cli_check_output(const char *command, const char *output, const char *const *inputs);
+
+/* The same for what is written as an OpenEXR, whose name must not end like a picture of another kind. */
+int cli_check_exr_output(const char *command, const char *output, const char *const *inputs);
 
 #endif

@@ -23,11 +23,6 @@ pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error)
 
 void cli_warn_of_flaws(const char *command, const char *path, const pe_env *env)
 {
-    size_t count = pe_env_repairs(env);
-
-    if (count)
-        cli_warning(command, "%s: %zu of %lld texels, NaN, infinite or negative, %s repaired", path, count,
-                    (long long)pe_env_width(env) * pe_env_height(env), count == 1 ? "was" : "were");
     if (*pe_env_remark(env))
         cli_warning(command, "%s: %s", path, pe_env_remark(env));
 }

@@ -77,9 +77,9 @@ static int eval_run(int argc, char **argv)
 const cli_command eval_command = {
     "eval",
     "look maps up for lines of normal and viewer",
-    "Reads lines 'nx ny nz ox oy oz' from standard input, the normal and the direction to the viewer, neither of any "
-    "particular length, and prints the reflected radiance 'R G B' for each, in order. Blank lines and lines that start "
-    "with # are passed over.",
+    "Reads lines 'nx ny nz ox oy oz' from standard input, the normal and the direction to the viewer, or lines "
+    "'nx ny nz ox oy oz dx dy dz', with the brush direction there, none of any particular length, and prints the "
+    "reflected radiance 'R G B' for each, in order. Blank lines and lines that start with # are passed over.",
     operands,
     options,
     eval_run,

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define DIGITS_MAX 9 /* so that every number fits an int */
 
@@ -112,4 +113,68 @@ char *frames_name(const char *pattern, int frame)
     if (name)
         *to = '\0';
     return name;
+}
+
+/* ---- outputs that are inputs ---- */
+
+/* A frame's input, as the system knows it: links and other spellings of its name are the same file. */
+typedef struct source {
+    dev_t device;
+    ino_t inode;
+    int frame;
+} source;
+
+static int compare_sources(const void *a, const void *b)
+{
+    const source *x = a, *y = b;
+
+    if (x->device != y->device)
+        return x->device < y->device ? -1 : 1;
+    return x->inode < y->inode ? -1 : x->inode > y->inode;
+}
+
+/* 0 if the file is not there. */
+static int find_file(const char *pattern, int frame, source *out)
+{
+    char *name = frames_name(pattern, frame);
+    struct stat about;
+    int found = name && stat(name, &about) == 0 && S_ISREG(about.st_mode);
+
+    free(name);
+    if (found)
+        *out = (source){ about.st_dev, about.st_ino, frame };
+    return found;
+}
+
+static void refuse_overwriting(const char *command, const char *inputs, const char *outputs, int frame, int input_frame)
+{
+    char *input = frames_name(inputs, input_frame), *output = frames_name(outputs, frame);
+
+    cli_error(command, "%s, the output of frame %d, is %s, the input of frame %d; give other names after -o",
+              output ? output : outputs, frame, input ? input : inputs, input_frame);
+    free(input);
+    free(output);
+}
+
+int frames_check_overwriting(const char *command, const char *inputs, const char *outputs, const frames *f)
+{
+    size_t count = 0;
+    source *sources = malloc(((size_t)(f->last - f->first) / (size_t)f->step + 1) * sizeof *sources), output;
+    const source *met = NULL;
+
+    if (!sources) {
+        cli_error(command, "out of memory");
+        return CLI_FAILURE;
+    }
+    for (int frame = f->first; frame <= f->last; frame += f->step)
+        count += (size_t)find_file(inputs, frame, &sources[count]);
+    qsort(sources, count, sizeof *sources, compare_sources);
+    for (int frame = f->first; frame <= f->last && !met; frame += f->step)
+        if (find_file(outputs, frame, &output)) {
+            met = bsearch(&output, sources, count, sizeof *sources, compare_sources);
+            if (met)
+                refuse_overwriting(command, inputs, outputs, frame, met->frame);
+        }
+    free(sources);
+    return met ? CLI_FAILURE : CLI_SUCCESS;
 }

@@ -19,4 +19,7 @@ int frames_check_pattern(const char *command, const char *pattern);
 /* A frame's file name, by a pattern that was checked; to be freed.  NULL if memory is out. */
 char *frames_name(const char *pattern, int frame);
 
+/* Would a frame be written over what a frame is read from?  CLI_FAILURE, with its error printed, if so. */
+int frames_check_overwriting(const char *command, const char *inputs, const char *outputs, const frames *f);
+
 #endif

@@ -86,7 +86,7 @@ static int check_settings(const ndf_settings *s)
     else if (s->raw && s->smooth > 0)
         cli_error("ndf", "--raw and --smooth exclude each other; give one of them");
     else
-        return cli_check_output("ndf", s->output, inputs);
+        return cli_check_exr_output("ndf", s->output, inputs);
     return CLI_FAILURE;
 }
 
@@ -100,6 +100,9 @@ static pe_status read_heights(const ndf_settings *s, pe_slopes *slopes, pe_error
 
     if (status != PE_OK)
         return status;
+    if (unit > 0 && heights.own_pitch > 0 && !s->quiet)
+        cli_warning("ndf", "%s: states its scale, a pitch of %g um, which the one given takes the place of", s->input,
+                    heights.own_pitch);
     status = pe_slopes_of_heights(&heights, s->wrap ? PE_EDGES_WRAP : PE_EDGES_OPEN, slopes, error);
     pe_heights_free(&heights);
     return status;

@@ -13,6 +13,7 @@ typedef enum cli_type {
     CLI_LENGTH,  /* 1.5um: a number and nm, um, mm, cm, m or in, um if none; double, in um */
     CLI_LENGTHS, /* A, which stands for A,A, or A,B; double[2] */
     CLI_VECTOR,  /* X,Y,Z, not all zero; double[3] */
+    CLI_TRIPLE,  /* R,G,B, any; double[3] */
     CLI_SIZE,    /* 400x200; int[2] */
     CLI_CHOICE,  /* one of `choices`; int */
     CLI_TEXT     /* any; const char * */
@@ -119,7 +120,7 @@ extern const cli_choice cli_weights[];
     }
 #define CLI_OPTION_K(settings) \
     { \
-        "k", 0, "R,G,B", CLI_VECTOR, offsetof(settings, surface.k), 0, 0, NULL, NULL, 0, "and the imaginary part" \
+        "k", 0, "R,G,B", CLI_TRIPLE, offsetof(settings, surface.k), 0, 0, NULL, NULL, 0, "and the imaginary part" \
     }
 #define CLI_OPTION_DIRECTION(settings) \
     { \

@@ -2,6 +2,7 @@
 #include "reflectance.h"
 #include "cli.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -65,17 +66,22 @@ static int choose_material(const char *command, const char *name, pe_surface *su
 {
     enum { NAMES_MAX = 32 };
     const char *names[NAMES_MAX], *nearest;
+    char list[256] = "";
     int count = 0;
 
     if (pe_material(name, surface->eta, surface->k))
         return CLI_SUCCESS;
-    for (; count < NAMES_MAX && pe_material_name(count); count++)
+    for (; count < NAMES_MAX && pe_material_name(count); count++) {
+        size_t used = strlen(list);
+
         names[count] = pe_material_name(count);
+        snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", names[count]);
+    }
     nearest = cli_nearest(name, names, (size_t)count);
     if (nearest)
         cli_error(command, "--material %s: not known; did you mean %s?", name, nearest);
     else
-        cli_error(command, "--material %s: not known; see 'prefenv %s --help', or give --ior and --k", name, command);
+        cli_error(command, "--material %s: not known; what there is: %s; or give --ior and --k", name, list);
     return CLI_FAILURE;
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -60,4 +61,26 @@ int cli_check_output(const char *command, const char *output, const char *const 
             return CLI_FAILURE;
         }
     return check_folder(command, output);
+}
+
+/* What a name that ends so promises to be. */
+static const char *const other_formats[] = { ".png",  ".hdr", ".pic", ".jpg", ".jpeg", ".tif", ".tiff",
+                                             ".webp", ".tga", ".bmp", ".pfm", ".gif",  ".ini", ".pov" };
+
+int cli_check_exr_output(const char *command, const char *output, const char *const *inputs)
+{
+    size_t length = strlen(output);
+
+    if (cli_check_output(command, output, inputs) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    for (size_t k = 0; k < sizeof other_formats / sizeof *other_formats; k++) {
+        size_t end = strlen(other_formats[k]);
+
+        if (length > end && strcasecmp(output + length - end, other_formats[k]) == 0) {
+            cli_error(command, "%s: what is written is an OpenEXR; name it so, %.*s.exr", output, (int)(length - end),
+                      output);
+            return CLI_FAILURE;
+        }
+    }
+    return CLI_SUCCESS;
 }

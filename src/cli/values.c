@@ -153,12 +153,22 @@ static int store_two(const cli_command *command, const cli_option *option, const
     return CLI_SUCCESS;
 }
 
-static int store_vector(const cli_command *command, const cli_option *option, const char *text, double target[3])
+static int store_triple(const cli_command *command, const cli_option *option, const char *text, double target[3])
 {
     double values[3];
 
     if (read_values(text, read_number, ',', 3, values) != 3)
         return refuse(command, option, text, "three numbers are wanted, as in 0,1,0");
+    memcpy(target, values, sizeof values);
+    return CLI_SUCCESS;
+}
+
+static int store_vector(const cli_command *command, const cli_option *option, const char *text, double target[3])
+{
+    double values[3] = { 0 };
+
+    if (store_triple(command, option, text, values) != CLI_SUCCESS)
+        return CLI_FAILURE;
     if (values[0] == 0 && values[1] == 0 && values[2] == 0)
         return refuse(command, option, text, "the zero vector has no direction");
     memcpy(target, values, sizeof values);
@@ -220,6 +230,8 @@ int cli_store(const cli_command *command, const cli_option *option, const char *
         return store_two(command, option, text, read_length, "one length is wanted, or two as in 40um,8um", target);
     case CLI_VECTOR:
         return store_vector(command, option, text, target);
+    case CLI_TRIPLE:
+        return store_triple(command, option, text, target);
     case CLI_SIZE:
         return store_size(command, option, text, target);
     case CLI_CHOICE:
