@@ -90,8 +90,8 @@ typedef struct pe_env pe_env;
 
 #define PE_RADIANCE_MAX 1e30f /* of a texel: sums and powers of such are floats, still */
 
-/* Reads what pe_image_read reads.  Values that are NaN, negative, infinite or above PE_RADIANCE_MAX are repaired (0; the
- * infinite and those above become the largest of their channel that is not) and counted: see pe_env_repairs. */
+/* Reads what pe_image_read reads.  Values that are NaN, negative, infinite or above PE_RADIANCE_MAX are repaired (0;
+ * the infinite and those above become the largest of their channel that is not) and counted: see pe_env_repairs. */
 pe_status pe_env_read(const char *path, pe_env **env, pe_error *error);
 pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, pe_env **env, pe_error *error);
 

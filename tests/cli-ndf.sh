@@ -117,7 +117,7 @@ is "$("$PREFENV" ndf turned.png -o x.ndf.exr --scale 8 2>&1 >/dev/null)" "" "16 
 
 # ---- refused ----
 
-refused "no scale" "turned.png: does not say its scale; give the height .* pitch .*--height 20um --pitch 1.5um.*--scale" \
+refused "no scale" "turned.png: does not say its scale; give the height .* \(--height 20um --pitch 1.5um\).*--scale" \
     turned.png
 refused "a pitch alone" "--height is missing" turned.png --pitch 1um
 refused "a height alone" "--pitch is missing" turned.png --height 1um
