@@ -344,6 +344,49 @@ void pe_exact(const pe_env *env, const pe_surface *surface, const double directi
 void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double direction[3], int samples,
                     const double n[3], const double o[3], double rgb[3]);
 
+/* ---- Phong's lobe and its roughness ---------------------------------------------------------------------------
+ *
+ * [Okumura]: the light at the angle theta to the mirror direction r has the weight cos^Lambda theta, where that is not
+ * negative; the larger the exponent Lambda, the smoother the surface.  Three numbers say how smooth a surface is:
+ *
+ *   Lambda, the exponent;
+ *   lambda, from 0 (rough) to 1 (a mirror, as far as a cube of size^3 voxels can hold it):
+ *           Lambda = -ln(levels) / ln(cos(arctan(window / (lambda size)))) [Okumura Eq. 13];
+ *   alpha,  the width of the normal distribution whose lobe, seen head on, is as wide: Lambda = (1 / alpha^2 - 1) / 2. */
+
+/* What lambda means.  Zeros mean the defaults. */
+typedef struct pe_smoothness {
+    int size;      /* s: voxels along the cube's edge, even, PE_SMOOTHNESS_SIZE_MIN to PE_SMOOTHNESS_SIZE_MAX; 0: 128 */
+    double window; /* u: how many voxels a lobe is wide, 0.1 to 100; 0: 6.2 */
+    double levels; /* I: what falls below 1 / levels of the lobe's peak is not to be seen, 2 to 1000000; 0: 256 */
+} pe_smoothness;
+
+#define PE_SMOOTHNESS_SIZE_MIN 8
+#define PE_SMOOTHNESS_SIZE_MAX 256
+
+pe_status pe_smoothness_check(const pe_smoothness *scale, pe_error *error);
+
+/* Lambda = g(lambda), and the other way round; 0 belongs to 0 and below. */
+double pe_smoothness_exponent(const pe_smoothness *scale, double lambda);
+double pe_smoothness_lambda(const pe_smoothness *scale, double exponent);
+
+/* Lambda of alpha in (0, 1], and the other way round; 0 belongs to 1 and above. */
+double pe_phong_exponent(double alpha);
+double pe_phong_alpha(double exponent);
+
+/* What becomes of the light that comes from below the surface. */
+typedef enum pe_horizon {
+    PE_HORIZON_IGNORED = 0, /* it counts, as if there were no surface [Okumura Eq. 3, 8]: a function of r alone */
+    PE_HORIZON_DARK,        /* it is hidden, and the rest as bright as it was [Okumura Eq. 1, 2]: rims are dark */
+    PE_HORIZON_MEAN         /* it is hidden, and the rest is averaged: white surroundings stay white [Motegi Eq. 4] */
+} pe_horizon;
+
+/* The truth: every texel of the environment weighted by Phong's lobe about r and by its solid angle, in double
+ * precision; the weights of the whole lobe, or of PE_HORIZON_MEAN those of what counts, add up to 1.  r and the normal n
+ * of any length but zero; n may be NULL where the horizon is ignored.  exponent is not negative. */
+void pe_phong(const pe_env *env, double exponent, pe_horizon horizon, const double n[3], const double r[3],
+              double rgb[3]);
+
 /* ---- maps: bake, read, write -------------------------------------------------------------------------------- */
 
 /* What is looked up: the environment filtered once for each representative normal, or once (baseline). */

@@ -65,6 +65,33 @@ bad "a null byte" '0 0 1 0 1 1\00001' 'oz is "1", which is not a number'
 is "$(head -c 5000000 /dev/zero | "$PREFENV" eval flat.pe.exr 2>&1)" "prefenv: eval: line 1: longer than 1024 bytes" \
     "a file of no lines is refused soon"
 
+# ---- Phong's lobe ----
+
+phong_of() # LINE [OPTION...]; the red of what it answers, or what it says
+{
+    local line=$1
+
+    shift
+    printf '%s\n' "$line" | "$PREFENV" exact spot.exr --phong "$@" 2>&1 | sed 's/^\([0-9.]*\) .*/\1/'
+}
+
+# The lit texel's centre is at u = 9.5/32, v = 5.5/16; n = o = r looks there.
+lit="-0.2565 0.4714 0.8435 -0.2565 0.4714 0.8435"
+holds() # EXPRESSION of awk; 1 or 0
+{
+    awk "BEGIN { print ($1) ? 1 : 0 }"
+}
+sharp=$(phong_of "$lit 1") blunt=$(phong_of "$lit 0.1") dull=$(phong_of "$lit 0")
+is "$(holds "$sharp > $blunt && $blunt > $dull")" 1 "exact --phong: the smoother, the more of a spot"
+is "$(phong_of "$lit 0.05")" "$(phong_of "$lit 0.1" --size 64)" "exact --phong: lambda means voxels"
+floor="0 0 -1 0 1 -0.01"
+dark=$(phong_of "$floor 0.02" --horizon dark) mean=$(phong_of "$floor 0.02" --horizon mean)
+is "$(holds "$dark < 0.7 && $mean >= 1 && $(phong_of "$floor 0.02") >= 1")" 1 "exact --phong --horizon: dark, mean, ignored"
+like "$(phong_of "0 0 1 0 1 1")" "6 values; seven are wanted: nx ny nz ox oy oz roughness, or ten, with" \
+    "exact --phong: no roughness"
+like "$(phong_of "0 0 1 0 1 1 rough")" 'roughness is "rough", which is not a number' "exact --phong: a word for it"
+like "$(phong_of "0 0 1 0 1 1 1" --size 55)" "size 55 is not an even number from 8 to 256" "exact --phong: an odd size"
+
 for command in "eval flat.pe.exr" "exact flat.exr"; do
     # shellcheck disable=SC2086 # words
     like "$("$PREFENV" $command <. 2>&1; echo "exit $?")" "cannot read standard input: Is a directory" \

@@ -60,7 +60,7 @@ paper quality quiet shard size threads weight " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
-is "$(options_of exact)" "alpha direction help ior k material ndf quiet threads weight " "the options of exact"
+is "$(options_of exact)" "alpha direction help horizon ior k levels material ndf phong quiet size threads weight window " "the options of exact"
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
 is "$(options_of ndf)" \

@@ -47,7 +47,7 @@ static void look_up(const pe_point *point, const void *data, double rgb[3])
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)
 {
     const lookup l = { maps, { (pe_interpolation)settings->interpolation, settings->exponent } };
-    const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, look_up, &l };
+    const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, QUERY_PLAIN, look_up, &l };
 
     return lines_run(&job);
 }

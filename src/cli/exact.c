@@ -4,11 +4,14 @@
 #include "lines.h"
 #include "prefenv.h"
 #include "reflectance.h"
+#include "vector.h"
 
 typedef struct exact_settings {
     const char *environment;
     cli_surface surface;
     double direction[3];
+    int phong, horizon, size;
+    double window, levels;
     int threads, quiet;
 } exact_settings;
 
@@ -17,12 +20,36 @@ static const cli_operand operands[] = {
     { NULL, 0, NULL },
 };
 
+static const cli_choice horizons[] = {
+    { "ignored", PE_HORIZON_IGNORED },
+    { "dark", PE_HORIZON_DARK },
+    { "mean", PE_HORIZON_MEAN },
+    { NULL, 0 },
+};
+
 static const cli_option options[] = {
-    CLI_OPTION_NDF(exact_settings),       CLI_OPTION_ALPHA(exact_settings),
-    CLI_OPTION_DIRECTION(exact_settings), CLI_OPTION_WEIGHT(exact_settings),
-    CLI_OPTION_MATERIAL(exact_settings),  CLI_OPTION_IOR(exact_settings),
-    CLI_OPTION_K(exact_settings),         CLI_OPTION_THREADS(exact_settings),
-    CLI_OPTION_QUIET(exact_settings),     { .name = NULL },
+    CLI_OPTION_NDF(exact_settings),
+    CLI_OPTION_ALPHA(exact_settings),
+    CLI_OPTION_DIRECTION(exact_settings),
+    CLI_OPTION_WEIGHT(exact_settings),
+    CLI_OPTION_MATERIAL(exact_settings),
+    CLI_OPTION_IOR(exact_settings),
+    CLI_OPTION_K(exact_settings),
+    { "phong", 0, NULL, CLI_SWITCH, offsetof(exact_settings, phong), 0, 0, NULL, NULL, 0,
+      "Phong's lobe about the mirror direction, its smoothness lambda the seventh number of each line: what maps of "
+      "the "
+      "methods voxels and layers look up" },
+    { "size", 0, "S", CLI_INTEGER, offsetof(exact_settings, size), PE_SMOOTHNESS_SIZE_MIN, PE_SMOOTHNESS_SIZE_MAX, NULL,
+      "128", 0, "for --phong: the voxels along the cube's edge that lambda refers to" },
+    CLI_OPTION_WINDOW(exact_settings),
+    CLI_OPTION_LEVELS(exact_settings),
+    { "horizon", 0, "NAME", CLI_CHOICE, offsetof(exact_settings, horizon), 0, 0, horizons, "ignored", 0,
+      "for --phong, the light from below the surface: ignored, it counts; dark, it is hidden; mean, it is hidden and "
+      "the "
+      "rest averaged" },
+    CLI_OPTION_THREADS(exact_settings),
+    CLI_OPTION_QUIET(exact_settings),
+    { .name = NULL },
 };
 
 enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels do */
@@ -31,6 +58,8 @@ typedef struct truth {
     const pe_env *env;
     pe_surface surface;
     double direction[3];
+    pe_smoothness scale;
+    pe_horizon horizon;
 } truth;
 
 static void sum_up(const pe_point *point, const void *data, double rgb[3])
@@ -40,14 +69,34 @@ static void sum_up(const pe_point *point, const void *data, double rgb[3])
     pe_exact(t->env, &t->surface, point->direction ? point->direction : t->direction, point->n, point->o, rgb);
 }
 
+static void sum_up_phong(const pe_point *point, const void *data, double rgb[3])
+{
+    const truth *t = data;
+    double n[3], o[3], r[3];
+
+    pe_normalize_any(point->n, n);
+    pe_normalize_any(point->o, o);
+    if (pe_dot(n, o) < 0)
+        pe_scale(-1, n, n);
+    pe_reflect(o, n, r);
+    pe_phong(t->env, pe_smoothness_exponent(&t->scale, point->roughness), t->horizon, n, r, rgb);
+}
+
 static int answer_lines(const exact_settings *settings, const pe_surface *surface, const pe_env *env)
 {
     const truth t = {
         env,
         *surface,
         { settings->direction[0], settings->direction[1], settings->direction[2] },
+        { settings->size, settings->window, settings->levels },
+        (pe_horizon)settings->horizon,
     };
-    const lines_job job = { "exact", settings->threads, LINES_PER_BLOCK, sum_up, &t };
+    const lines_job job = { "exact",
+                            settings->threads,
+                            LINES_PER_BLOCK,
+                            settings->phong ? QUERY_ROUGHNESS : QUERY_PLAIN,
+                            settings->phong ? sum_up_phong : sum_up,
+                            &t };
 
     return lines_run(&job);
 }
@@ -69,6 +118,17 @@ static int answer(const exact_settings *settings, const pe_surface *surface)
     return result;
 }
 
+static int check_scale(const exact_settings *settings)
+{
+    const pe_smoothness scale = { settings->size, settings->window, settings->levels };
+    pe_error error;
+
+    if (pe_smoothness_check(&scale, &error) == PE_OK)
+        return CLI_SUCCESS;
+    cli_error("exact", "%s", error.message);
+    return CLI_FAILURE;
+}
+
 static int exact_run(int argc, char **argv)
 {
     exact_settings settings = { 0 };
@@ -78,7 +138,8 @@ static int exact_run(int argc, char **argv)
 
     if (result != CLI_PROCEED)
         return result;
-    if (cli_make_surface("exact", &settings.surface, &surface, &table) != CLI_SUCCESS)
+    if (check_scale(&settings) != CLI_SUCCESS ||
+        cli_make_surface("exact", &settings.surface, &surface, &table) != CLI_SUCCESS)
         return CLI_FAILURE;
     result = answer(&settings, &surface);
     pe_ndf_table_free(table);

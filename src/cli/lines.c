@@ -88,8 +88,8 @@ static void compute_block(const lines_job *job, block *b)
     b->failed = 0;
     while (line < stop) {
         const char *feed = memchr(line, '\n', (size_t)(stop - line));
-        int size =
-            query_answer(line, (size_t)(feed - line), job->function, job->data, b->output + b->output_size, b->error);
+        int size = query_answer(line, (size_t)(feed - line), job->form, job->function, job->data,
+                                b->output + b->output_size, b->error);
 
         b->lines++;
         if (size < 0) {

@@ -1,4 +1,4 @@
-/* lines.h - lines "nx ny nz ox oy oz", or with "dx dy dz" besides, from standard input, "R G B" a line to standard
+/* lines.h - lines "nx ny nz ox oy oz", or with a roughness and "dx dy dz" besides, from standard input, "R G B" a line to standard
  * output, in order.
  *
  * The calling thread reads and cuts the input into blocks of whole lines, workers compute blocks, one thread writes
@@ -14,6 +14,7 @@ typedef struct lines_job {
     const char *command; /* for messages */
     int threads;         /* 0: one a processor */
     int lines_per_block; /* at most; few where a line takes long */
+    query_form form;
     query_function *function;
     const void *data;
 } lines_job;

@@ -122,6 +122,16 @@ extern const cli_choice cli_weights[];
     { \
         "k", 0, "R,G,B", CLI_TRIPLE, offsetof(settings, surface.k), 0, 0, NULL, NULL, 0, "and the imaginary part" \
     }
+#define CLI_OPTION_WINDOW(settings) \
+    { \
+        "window", 0, "U", CLI_NUMBER, offsetof(settings, window), 0.1, 100, NULL, "6.2", 0, \
+            "how many voxels wide a lobe is that lambda stands for" \
+    }
+#define CLI_OPTION_LEVELS(settings) \
+    { \
+        "levels", 0, "I", CLI_NUMBER, offsetof(settings, levels), 2, 1000000, NULL, "256", 0, \
+            "the shades of a picture: what falls below 1/I of a lobe's peak is not to be seen" \
+    }
 #define CLI_OPTION_DIRECTION(settings) \
     { \
         "direction", 0, "X,Y,Z", CLI_VECTOR, offsetof(settings, direction), 0, 0, NULL, "0,1,0", 0, \

@@ -18,9 +18,12 @@ enum {
     QUERY_ERROR_BYTES = 256
 };
 
+/* What a line holds: nx ny nz ox oy oz, then a roughness if there are many, then perhaps dx dy dz. */
+typedef enum query_form { QUERY_PLAIN, QUERY_ROUGHNESS } query_form;
+
 /* Answers the line at `line`, `length` bytes that a line feed follows.  Returns the bytes written to `answer`, none for
  * a blank line or a comment; -1 if the line is wrong: `error` then says how. */
-int query_answer(const char *line, size_t length, query_function *function, const void *data,
+int query_answer(const char *line, size_t length, query_form form, query_function *function, const void *data,
                  char answer[QUERY_ANSWER_MAX], char error[QUERY_ERROR_BYTES]);
 
 #endif
