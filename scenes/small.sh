@@ -8,7 +8,8 @@
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
 small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f fig7_mask fig7a fig7b fig7c ten_lines
-    cylinder spheres gallery teapot fig4 fig6 fig7 readme surfaces view'
+    cylinder spheres gallery teapot fig4 fig6 fig7 readme surfaces view
+    street teapot8 contact teapot6a teapot6b'
 
 small_prepare()
 {
@@ -37,6 +38,7 @@ small_prepare()
         machined_measure $kind --size 256x256
         small_bake studio.exr surface-$kind.pe.exr --ndf $kind.ndf.exr --method representative --size 64x32 --normals 12
     done
+    ln -sf "$courtyard" panorama.exr
     cat >fig6_numbers.inc <<'END'
 #declare Reference_Samples = 1;
 #declare Mse_C = 3;
@@ -56,6 +58,14 @@ small_bake() # ENVIRONMENT MAPS OPTION...
     "$PREFENV" bake "$1" -o "$2" --quiet "${@:3}" || die "$2 was not baked; see above"
 }
 
+# small_frame NAME png|exr OPTIONS: the first frame of an animation, as NAME_001.png too
+small_frame()
+{
+    # shellcheck disable=SC2086
+    render "$1.log" "$srcdir/scenes/$1.pov" "$1_.$2" +KFI1 +KFF695 +SF1 +EF1 +L. $3
+    [ "$2" != png ] || cp "$1_001.png" "$1.png"
+}
+
 small_render()
 {
     local size='+W128 +H128 -A'
@@ -72,6 +82,8 @@ small_render()
         fig6) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         fig7) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         readme) size='+W164 +H144 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        contact) size='+W326 +H186 +A0.0 +AM1 +R2 -J Declare=Frames=1' ;;
+        teapot6?) size='+W128 +H64 -A' ;;
         surfaces) size='+W235 +H235 +A0.1 +AM2 +R2 -J' ;;
         view)
             # shellcheck disable=SC2086 # the options are a list of words
@@ -80,6 +92,12 @@ small_render()
     esac
     # shellcheck disable=SC2086
     case $1 in
+        street) # a PNG to look at, an EXR for teapot8
+            small_frame street png '+W128 +H64 +A0.05 +AM1 +R3 -J'
+            small_frame street exr '+W128 +H64 +A0.05 +AM1 +R3 -J'
+            small_bake street_001.exr street_001.pe.exr --normals 42 --size 32x32
+            ;;
+        teapot8) small_frame teapot8 png '+W128 +H96 -A' ;;
         gallery)
             # It bakes by itself; of a smaller environment, so that it takes seconds.
             mkdir -p gallery
