@@ -18,6 +18,9 @@
 #define SIDE 48
 #define PAIRS 1024
 
+/* A sun whose half vector has a density below exp(-LIMIT) = 1e-14 of the greatest is not seen. */
+#define LIMIT 32
+
 struct pe_denominator {
     pe_disc disc;
     double farthest;
@@ -76,7 +79,7 @@ pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error 
         return pe_fail_memory(error, "the weights of a lobe");
     }
     denominator->disc = (pe_disc){ SIDE, SIDE };
-    reach = pe_ndf_reach(ndf, PE_LOBE_CUTOFF);
+    reach = pe_ndf_reach(ndf, LIMIT);
     denominator->farthest = 1 + reach * reach;
     for (int k = 0; k < PAIRS; k++) {
         double point[2];

@@ -57,6 +57,7 @@ static inline void pe_disc_point(const pe_disc *disc, const float direction[3], 
  * of them inside, and their shares. */
 typedef struct pe_disc_taps {
     int x, y;
+    float right, below; /* where the direction lies between them: from the texel (x, y), in texels */
     float across[4], down[4];
 } pe_disc_taps;
 
@@ -74,8 +75,10 @@ static inline void pe_disc_taps_at(const pe_disc *disc, const float direction[3]
     pe_disc_point(disc, direction, point);
     taps->x = pe_disc_tap(point[0], disc->width);
     taps->y = pe_disc_tap(point[1], disc->height);
-    pe_spline_weights(point[0] - 0.5f - (float)taps->x, taps->across);
-    pe_spline_weights(point[1] - 0.5f - (float)taps->y, taps->down);
+    taps->right = point[0] - 0.5f - (float)taps->x;
+    taps->below = point[1] - 0.5f - (float)taps->y;
+    pe_spline_weights(taps->right, taps->across);
+    pe_spline_weights(taps->below, taps->down);
 }
 
 /* Gives the texels beyond the horizon, which a cubic's taps reach, the value of the last texel within on their

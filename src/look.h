@@ -8,6 +8,7 @@
 #include <string.h>
 
 typedef float pe_quad __attribute__((vector_size(16)));
+typedef int pe_quad_bits __attribute__((vector_size(16)));
 
 /* Four floats from a texel on: its three channels and one more, which is ignored. */
 static inline pe_quad pe_look_load(const float *texel)
@@ -18,21 +19,30 @@ static inline pe_quad pe_look_load(const float *texel)
     return v;
 }
 
+/* Beside a lamp narrower than its texels a spline swings below zero, which needs a coefficient below zero.  There a
+ * lookup `sum` at the taps t, the first of which is at `corner` in rows `stride` floats apart, is not left lower than
+ * a lookup can be: than the least texel about, or a quarter of the bilinear lookup. */
+pe_quad pe_look_beside_lamp(const float *corner, int stride, const pe_disc_taps *t, pe_quad sum);
+
 /* What image k of hemispheres shows in the direction `local` of its frame, unit; below the horizon: what the horizon
  * shows.  Red, green, blue, and a fourth value without meaning. */
 static inline pe_quad pe_look(const pe_maps *maps, int image, const float local[3])
 {
-    int width = maps->info.width;
-    const float *row;
+    int stride = 3 * maps->info.width;
+    const float *corner, *row;
     pe_disc_taps t;
     pe_quad sum = { 0, 0, 0, 0 };
+    pe_quad_bits signs = { 0, 0, 0, 0 };
 
     pe_disc_taps_at(&maps->disc, local, &t);
-    row = maps->coefficients + (size_t)image * pe_maps_image_values(maps) + 3 * ((t.y - 1) * width + t.x - 1);
-    for (int j = 0; j < 4; j++, row += 3 * width)
-        sum += t.down[j] * (t.across[0] * pe_look_load(row) + t.across[1] * pe_look_load(row + 3) +
-                            t.across[2] * pe_look_load(row + 6) + t.across[3] * pe_look_load(row + 9));
-    return sum;
+    corner = row = maps->coefficients + (size_t)image * pe_maps_image_values(maps) + (t.y - 1) * stride + 3 * (t.x - 1);
+    for (int j = 0; j < 4; j++, row += stride) {
+        pe_quad a = pe_look_load(row), b = pe_look_load(row + 3), c = pe_look_load(row + 6), d = pe_look_load(row + 9);
+
+        sum += t.down[j] * (t.across[0] * a + t.across[1] * b + t.across[2] * c + t.across[3] * d);
+        signs |= (pe_quad_bits)a | (pe_quad_bits)b | (pe_quad_bits)c | (pe_quad_bits)d;
+    }
+    return (signs[0] | signs[1] | signs[2]) < 0 ? pe_look_beside_lamp(corner, stride, &t, sum) : sum;
 }
 
 #endif

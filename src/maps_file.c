@@ -340,19 +340,21 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
 static pe_status read_sun(const header *from, int k, pe_suns *suns)
 {
     char name[SUN_NAME_MAX];
+    double direction[3], power[3];
     pe_status status;
 
     name_sun(k, "direction", name);
-    status = get_vector(from, 0, name, suns->direction[k]);
-    if (status == PE_OK && !(fabs(pe_dot(suns->direction[k], suns->direction[k]) - 1) < 1e-6))
+    status = get_vector(from, 0, name, direction);
+    if (status == PE_OK && !(fabs(pe_dot(direction, direction) - 1) < 1e-6))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not of length 1", from->name, name);
     name_sun(k, "power", name);
-    AND_THEN(get_vector(from, 0, name, suns->power[k]))
+    AND_THEN(get_vector(from, 0, name, power))
     for (int c = 0; status == PE_OK && c < 3; c++)
-        if (!(suns->power[k][c] >= 0 && suns->power[k][c] <= 4 * M_PI * (double)PE_RADIANCE_MAX))
+        if (!(power[c] >= 0 && power[c] <= 4 * M_PI * (double)PE_RADIANCE_MAX))
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not a radiance times solid angle", from->name,
                            name);
-    suns->count = k + 1;
+    if (status == PE_OK)
+        pe_suns_add_sun(suns, direction, power);
     return status;
 }
 

@@ -8,6 +8,8 @@
 #include "status.h"
 #include "surface.h"
 
+#include <string.h>
+
 /* The texels of greatest power, in falling order; one more than can be suns. */
 typedef struct ranking {
     int count, texel[PE_SUNS_MAX + 1];
@@ -56,7 +58,7 @@ int pe_suns_possible(const pe_surface *surface)
  * must be DIM, or, where the suns are as many as can be, STILL_DIM beside the brightest.  And the lobe must be wider
  * than a texel, which else is no point. */
 #define SHARE_MIN 0.05
-#define DIM 0.02
+#define DIM 0.004
 #define STILL_DIM 0.1
 
 static int count_suns(const pe_env *env, const pe_ndf *ndf, const ranking *r, double total)
@@ -75,15 +77,28 @@ static int count_suns(const pe_env *env, const pe_ndf *ndf, const ranking *r, do
     return r->power[PE_SUNS_MAX] < STILL_DIM * r->power[0] ? PE_SUNS_MAX : 0;
 }
 
+void pe_suns_add_sun(pe_suns *suns, const double direction[3], const double power[3])
+{
+    int k = suns->count++;
+
+    for (int c = 0; c < 3; c++) {
+        suns->direction[k][c] = direction[c];
+        suns->power[k][c] = power[c];
+        suns->axes[c][k] = (float)direction[c];
+    }
+}
+
 static void take(const pe_env *env, const pe_env *fine, int texel, pe_suns *suns, float *rgb)
 {
-    int k = suns->count++, y = texel / env->width;
+    int y = texel / env->width;
+    double direction[3], power[3];
 
-    pe_shrunk_direction(env, fine, texel % env->width, y, suns->direction[k]);
+    pe_shrunk_direction(env, fine, texel % env->width, y, direction);
     for (int c = 0; c < 3; c++) {
-        suns->power[k][c] = (double)rgb[3 * (size_t)texel + (size_t)c] * env->grid.solid_angle_sr[y];
+        power[c] = (double)rgb[3 * (size_t)texel + (size_t)c] * env->grid.solid_angle_sr[y];
         rgb[3 * (size_t)texel + (size_t)c] = 0;
     }
+    pe_suns_add_sun(suns, direction, power);
 }
 
 pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surface *surface, pe_suns *suns,
@@ -96,7 +111,7 @@ pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surfa
 
     if (status != PE_OK)
         return status;
-    suns->count = 0;
+    *suns = (pe_suns){ 0 };
     if (pe_suns_possible(surface)) {
         total = rank(env, &r);
         count = count_suns(env, &surface->ndf, &r, total);
@@ -149,6 +164,32 @@ static void add_scattered(const pe_suns *suns, const pe_surface *surface, const 
     }
 }
 
+typedef float quad __attribute__((vector_size(16)));
+typedef int quad_bits __attribute__((vector_size(16)));
+
+/* Whether the half vector with any sun is one that counts, and the sun up, or nearly: most lookups are nowhere near a
+ * sun.  With unit vectors h.h = 2 + 2 o.w. */
+static int is_any_near(const pe_suns *suns, double farthest, const double n[3], const double o[3])
+{
+    const float n0 = (float)n[0], n1 = (float)n[1], n2 = (float)n[2];
+    const float o0 = (float)o[0], o1 = (float)o[1], o2 = (float)o[2];
+    const float o_n = (float)pe_dot(o, n), limit = (float)fmin(1.001 * farthest, 1e30);
+    quad_bits found = { 0, 0, 0, 0 };
+
+    for (int k = 0; k < suns->count; k += 4) {
+        quad x, y, z, w_n, h_h, h_n;
+
+        memcpy(&x, suns->axes[0] + k, sizeof x);
+        memcpy(&y, suns->axes[1] + k, sizeof y);
+        memcpy(&z, suns->axes[2] + k, sizeof z);
+        w_n = n0 * x + n1 * y + n2 * z;
+        h_h = 2 + 2 * (o0 * x + o1 * y + o2 * z);
+        h_n = o_n + w_n;
+        found |= (w_n > -1e-5f) & (h_h < limit * h_n * h_n + 1e-5f);
+    }
+    return found[0] | found[1] | found[2] | found[3];
+}
+
 static void add_weighted(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
                          const double direction[3], const double n[3], const double o[3], double rgb[3])
 {
@@ -156,6 +197,8 @@ static void add_weighted(const pe_suns *suns, const pe_surface *surface, const p
     double weight = 0;                                      /* of all light; 0: not yet needed, nor the frame */
     double farthest = pe_denominator_farthest(denominator); /* 1 / cos^2(theta_h) */
 
+    if (!is_any_near(suns, farthest, n, o))
+        return;
     for (int k = 0; k < suns->count; k++) {
         const double *w = suns->direction[k];
         double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, share;

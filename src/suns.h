@@ -15,7 +15,11 @@ typedef struct pe_suns {
     int count;
     double direction[PE_SUNS_MAX][3]; /* unit, in the world */
     double power[PE_SUNS_MAX][3];     /* radiance times solid angle */
+    float axes[3][PE_SUNS_MAX];       /* direction once more: all x, all y, all z; 0 beyond count */
 } pe_suns;
+
+/* Adds one; there is room for PE_SUNS_MAX. */
+void pe_suns_add_sun(pe_suns *suns, const double direction[3], const double power[3]);
 
 /* Can lights be told apart from the maps of this surface at all? */
 int pe_suns_possible(const pe_surface *surface);

@@ -130,6 +130,45 @@ static void test_texels(pe_ndf_kind kind, double alpha_x, double alpha_y, int an
     free(rgb);
 }
 
+/* ---- between texels ---- */
+
+/* A room with lamps a thousand times as bright as its walls. */
+static pe_env *make_studio(int width, int height)
+{
+    float *rgb = reference_room(width, height);
+
+    for (int k = 0; k < 3 * width * height; k++)
+        rgb[k] *= rgb[k] > 1 ? 200 : 1;
+    return make_env(width, height, rgb);
+}
+
+/* Where a lobe at grazing angles is narrower than a texel, no lookup comes out dark: a spline that swings below zero
+ * beside a lamp would. */
+static void test_dark(void)
+{
+    enum { WIDTH = 128, HEIGHT = 64, VIEWS = 4000 };
+    const pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.1, 0.1, NULL } };
+    pe_env *env = make_studio(WIDTH, HEIGHT);
+    pe_maps *maps = bake(env, &options);
+    double darkest = 1;
+    unsigned state = 3;
+
+    for (int k = 0; k < VIEWS; k++) {
+        double n[3], o[3], got[3], expected[3];
+
+        do
+            random_view(&state, 0.02, n, o);
+        while (pe_dot(n, o) > 0.3);
+        pe_exact(env, &options.surface, (const double[3]){ 0, 1, 0 }, n, o, expected);
+        sample_point(maps, NULL, NULL, n, o, got);
+        for (int c = 0; c < 3; c++)
+            darkest = fmin(darkest, got[c] / expected[c]);
+    }
+    ok(darkest > 0.05, "at grazing angles in a room of lamps: no lookup below %.3f of the truth", darkest);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
 /* ---- suns ---- */
 
 /* In the highlights of suns, for any normal.  Beckmann's bound is the discreteness of the truth's own denominator: it
@@ -524,6 +563,7 @@ static void test_file(pe_pixel_type type, double bound)
 
 int main(void)
 {
+    test_dark();
     test_suns_on_horizon();
     test_texels(PE_NDF_BECKMANN, 0.3, 0.3, 1);
     test_texels(PE_NDF_BECKMANN, 0.4, 0.2, 5);

@@ -1,0 +1,33 @@
+/* look.c - see look.h: a lookup where the spline may swing below zero. */
+#include "look.h"
+
+/* Of the bilinear lookup: what is lower is looked at twice. */
+#define LOW 0.25f
+
+static inline pe_quad lesser(pe_quad a, pe_quad b)
+{
+    pe_quad_bits is_less = a < b;
+
+    return (pe_quad)(((pe_quad_bits)a & is_less) | ((pe_quad_bits)b & ~is_less));
+}
+
+/* A texel is the mean of the nine coefficients about it with the weights 1, 4, 1 in rows and columns. */
+pe_quad pe_look_beside_lamp(const float *corner, int stride, const pe_disc_taps *t, pe_quad sum)
+{
+    pe_quad left[4], right[4], texels[2][2], low;
+
+    for (int j = 0; j < 4; j++, corner += stride) {
+        pe_quad b = pe_look_load(corner + 3), c = pe_look_load(corner + 6);
+
+        left[j] = (pe_look_load(corner) + 4 * b + c) / 36;
+        right[j] = (b + 4 * c + pe_look_load(corner + 9)) / 36;
+    }
+    for (int j = 0; j < 2; j++) {
+        texels[j][0] = left[j] + 4 * left[j + 1] + left[j + 2];
+        texels[j][1] = right[j] + 4 * right[j + 1] + right[j + 2];
+    }
+    low = (1 - t->below) * ((1 - t->right) * texels[0][0] + t->right * texels[0][1]) +
+          t->below * ((1 - t->right) * texels[1][0] + t->right * texels[1][1]);
+    low = lesser(LOW * low, lesser(lesser(texels[0][0], texels[0][1]), lesser(texels[1][0], texels[1][1])));
+    return -lesser(-sum, -low);
+}
