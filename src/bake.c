@@ -1,4 +1,6 @@
 /* bake.c - environment + surface + representative normals to maps: what is done with which lights. */
+#include "bake.h"
+
 #include "baseline.h"
 #include "choose.h"
 #include "cluster.h"
@@ -16,14 +18,6 @@
 
 /* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
 #define AUTO_EXACT_TEXELS_MAX (128 * 64)
-
-struct pe_baker {
-    pe_bake_options options;
-    pe_maps_info info;        /* of the maps it makes, as far as the environment is not asked */
-    pe_maps_info hemispheres; /* those that are filtered: the same, or what lat-long maps are looked up in */
-    pe_lobe *lobe;
-    pe_kernel *kernel; /* NULL: they are filtered light by light */
-};
 
 /* What one bake shares. */
 typedef struct job {
@@ -199,17 +193,22 @@ static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
  * however wide. */
 #define FINENESS_OF_BASELINE 0.1
 
+pe_status pe_baker_shrink(const pe_baker *b, const pe_env *env, pe_env **shrunk, pe_error *error)
+{
+    double fineness[2];
+
+    pe_ndf_fineness(&b->info.surface.ndf, fineness);
+    if (b->info.method == PE_METHOD_BASELINE)
+        fineness[0] = fmin(fineness[0], FINENESS_OF_BASELINE);
+    return pe_env_shrink(env, FINEST_TEXEL * fmin(fineness[0], fineness[1]), shrunk, error);
+}
+
 /* Fast bakes are the same for however fine an environment. */
 static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
 {
     pe_env *shrunk;
-    double fineness[2];
-    pe_status status;
+    pe_status status = pe_baker_shrink(j->baker, j->fine, &shrunk, error);
 
-    pe_ndf_fineness(&j->maps->info.surface.ndf, fineness);
-    if (j->maps->info.method == PE_METHOD_BASELINE)
-        fineness[0] = fmin(fineness[0], FINENESS_OF_BASELINE);
-    status = pe_env_shrink(j->fine, FINEST_TEXEL * fmin(fineness[0], fineness[1]), &shrunk, error);
     if (status != PE_OK)
         return status;
     status = fill_maps(j, shrunk ? shrunk : j->fine, error);
@@ -356,7 +355,7 @@ const pe_maps_info *pe_baker_get_info(const pe_baker *b)
 
 /* ---- the whole ---- */
 
-static pe_status check_size(const pe_baker *b, const pe_env *env, pe_error *error)
+pe_status pe_baker_check_size(const pe_baker *b, const pe_env *env, pe_error *error)
 {
     if (env->width == b->info.source_width && env->height == b->info.source_height)
         return PE_OK;
@@ -372,7 +371,7 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
     job j = {
         .baker = b, .fine = env, .known = known, .report = { b->options.progress, b->options.progress_data, 0, 1 }
     };
-    pe_status status = check_size(b, env, error);
+    pe_status status = pe_baker_check_size(b, env, error);
 
     info.source_name = env->name;
     if (status == PE_OK)

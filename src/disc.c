@@ -1,6 +1,8 @@
 /* disc.c - see disc.h. */
 #include "disc.h"
 
+#include <string.h>
+
 static double radius_of(const pe_disc *disc, int x, int y)
 {
     double p = (x + 0.5 - disc->width / 2.0) / pe_disc_radius(disc->width);
@@ -22,17 +24,16 @@ static void nearest_inside(const pe_disc *disc, int x, int y, int *inside_x, int
     } while (!(radius_of(disc, *inside_x, *inside_y) < 1));
 }
 
-void pe_disc_continue(const pe_disc *disc, float *rgb)
+void pe_disc_continue(const pe_disc *disc, float *values, int channels)
 {
     for (int y = 0; y < disc->height; y++)
         for (int x = 0; x < disc->width; x++) {
-            float *texel = rgb + 3 * (y * disc->width + x);
+            float *texel = values + channels * (y * disc->width + x);
             int from_x, from_y;
 
             if (radius_of(disc, x, y) < 1)
                 continue;
             nearest_inside(disc, x, y, &from_x, &from_y);
-            for (int c = 0; c < 3; c++)
-                texel[c] = rgb[3 * (from_y * disc->width + from_x) + c];
+            memcpy(texel, values + channels * (from_y * disc->width + from_x), (size_t)channels * sizeof *texel);
         }
 }

@@ -81,8 +81,8 @@ static inline void pe_disc_taps_at(const pe_disc *disc, const float direction[3]
     pe_spline_weights(taps->below, taps->down);
 }
 
-/* Gives the texels beyond the horizon, which a cubic's taps reach, the value of the last texel within on their
- * radius. */
-void pe_disc_continue(const pe_disc *disc, float *rgb);
+/* Gives the texels beyond the horizon, which a cubic's taps reach, the values of the last texel within on their
+ * radius.  channels: interleaved, of each texel. */
+void pe_disc_continue(const pe_disc *disc, float *values, int channels);
 
 #endif

@@ -234,6 +234,7 @@ Imf::Header header_of(const pe_exr_part &part, int width, int height, pe_pixel_t
     Imf::Header header(width, height);
 
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 1;
     header.setName(part.name);
     header.setType(Imf::SCANLINEIMAGE);
     for (const char *channel : { "R", "G", "B" })

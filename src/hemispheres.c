@@ -92,7 +92,7 @@ static void filter_image(size_t k, void *data)
     pe_maps_frame(j->maps, (int)k, &frame);
     pe_lights_fill(j->cloud, j->lobe, &frame, j->lobe_reach, &lights);
     filter_texels(j, &frame, &lights, image);
-    pe_disc_continue(&j->maps->disc, image);
+    pe_disc_continue(&j->maps->disc, image, 3);
     pe_lights_free(&lights);
     j->done[k] = 1;
 }
@@ -156,6 +156,7 @@ static void filter_group(group *g, pe_lights *lights, float *cells)
 {
     const kernel_job *j = g->job;
 
+    pe_kernel_clear_cells(j->kernel, cells);
     for (int k = 0; k < g->count; k++) {
         pe_maps_frame(j->maps, g->first + k, &g->frames[k]);
         pe_lights_fill(j->cloud, j->lobe, &g->frames[k], M_PI, lights);
@@ -163,14 +164,14 @@ static void filter_group(group *g, pe_lights *lights, float *cells)
     }
     pe_kernel_apply(j->kernel, cells, store_group, g);
     for (int k = 0; k < g->count; k++)
-        pe_disc_continue(&j->maps->disc, pe_maps_image_to_fill(j->maps, g->first + k));
+        pe_disc_continue(&j->maps->disc, pe_maps_image_to_fill(j->maps, g->first + k), 3);
 }
 
 static void run_group(size_t index, void *data)
 {
     kernel_job *j = data;
     group g = { .job = j, .first = (int)index * PE_KERNEL_GROUP };
-    float *cells = calloc(pe_kernel_cell_values(j->kernel), sizeof *cells);
+    float *cells = pe_kernel_allocate_cells(j->kernel);
     pe_lights lights = { 0 };
 
     g.count = j->maps->info.images - g.first < PE_KERNEL_GROUP ? j->maps->info.images - g.first : PE_KERNEL_GROUP;

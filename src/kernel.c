@@ -285,9 +285,29 @@ void pe_kernel_free(pe_kernel *k)
 
 /* ---- use ---- */
 
-size_t pe_kernel_cell_values(const pe_kernel *k)
+const pe_disc *pe_kernel_map(const pe_kernel *k)
 {
-    return (size_t)k->cells.width * (size_t)k->cells.height * 4 * PE_KERNEL_GROUP;
+    return &k->map;
+}
+
+const pe_disc *pe_kernel_disc(const pe_kernel *k)
+{
+    return &k->cells;
+}
+
+static size_t cell_bytes(const pe_kernel *k)
+{
+    return (size_t)k->cells.width * (size_t)k->cells.height * LANES * sizeof(float);
+}
+
+float *pe_kernel_allocate_cells(const pe_kernel *k)
+{
+    return aligned_alloc(LANES * sizeof(float), cell_bytes(k));
+}
+
+void pe_kernel_clear_cells(const pe_kernel *k, float *cells)
+{
+    memset(cells, 0, cell_bytes(k));
 }
 
 typedef float quad __attribute__((vector_size(16)));
@@ -322,18 +342,39 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
     }
 }
 
-CLONES static void sum_texel(const row *r, const texel *t, const float *cells, floats *out)
+/* A texel's sums over one or two grids of cells, which share the reading of its weights; each by way of four partial
+ * sums, so that none waits for the one before it. */
+INLINE void sum_cells(int grids, const row *r, const texel *t, const float *const cells[2], floats out[2])
 {
-    floats sum = { 0 };
+    floats sums[2][4] = { { { 0 } } };
 
     for (size_t s = t->spans; s < t->spans + t->span_count; s++) {
         const float *weights = r->weights + r->spans[s].weights;
-        const float *cell = cells + (size_t)r->spans[s].cell * LANES;
+        size_t first = (size_t)r->spans[s].cell * LANES;
+        int count = r->spans[s].count, k = 0;
 
-        for (int k = 0; k < r->spans[s].count; k++)
-            sum += weights[k] * load(cell + k * LANES);
+        for (; k + 4 <= count; k += 4)
+            for (int i = 0; i < 4; i++)
+                for (int g = 0; g < grids; g++)
+                    sums[g][i] += weights[k + i] * load(cells[g] + first + (size_t)(k + i) * LANES);
+        for (; k < count; k++)
+            for (int g = 0; g < grids; g++)
+                sums[g][0] += weights[k] * load(cells[g] + first + (size_t)k * LANES);
     }
-    *out = sum;
+    for (int g = 0; g < grids; g++)
+        out[g] = (sums[g][0] + sums[g][1]) + (sums[g][2] + sums[g][3]);
+}
+
+CLONES static void sum_texel(const row *r, const texel *t, const float *cells, floats *out)
+{
+    const float *const both[2] = { cells, cells };
+
+    sum_cells(1, r, t, both, out);
+}
+
+CLONES static void sum_texel_twice(const row *r, const texel *t, const float *const cells[2], floats out[2])
+{
+    sum_cells(2, r, t, cells, out);
 }
 
 void pe_kernel_apply(const pe_kernel *k, const float *cells, pe_kernel_texel *function, void *data)
@@ -342,11 +383,26 @@ void pe_kernel_apply(const pe_kernel *k, const float *cells, pe_kernel_texel *fu
         for (size_t x = 0; x < k->rows[y].texel_count; x++) {
             const texel *t = &k->rows[y].texels[x];
             double sums[PE_KERNEL_GROUP][4];
-            floats sum;
+            floats sum[2];
 
-            sum_texel(&k->rows[y], t, cells, &sum);
+            sum_texel(&k->rows[y], t, cells, sum);
             for (int lane = 0; lane < LANES; lane++)
-                sums[lane / 4][lane % 4] = (double)sum[lane];
+                sums[lane / 4][lane % 4] = (double)sum[0][lane];
             function(t->place, t->o, (const double(*)[4])sums, data);
+        }
+}
+
+void pe_kernel_apply_twice(const pe_kernel *k, const float *const cells[2], pe_kernel_lanes *function, void *data)
+{
+    for (int y = 0; y < k->map.height; y++)
+        for (size_t x = 0; x < k->rows[y].texel_count; x++) {
+            const texel *t = &k->rows[y].texels[x];
+            float lanes[2][LANES];
+            floats sums[2];
+
+            sum_texel_twice(&k->rows[y], t, cells, sums);
+            for (int g = 0; g < 2; g++)
+                memcpy(lanes[g], &sums[g], sizeof lanes[g]);
+            function(t->place, t->o, (const float(*)[LANES])lanes, data);
         }
 }

@@ -26,8 +26,14 @@ void pe_kernel_free(pe_kernel *kernel); /* NULL is allowed */
 /* Normals that are filtered together: in every cell, weight, red, green and blue of each, one after the other. */
 #define PE_KERNEL_GROUP 4
 
-/* Floats of a grid of cells for a group. */
-size_t pe_kernel_cell_values(const pe_kernel *kernel);
+/* The pictures that it is for. */
+const pe_disc *pe_kernel_map(const pe_kernel *kernel);
+
+/* The grid of cells; and one of 16 floats each for a group, to be freed, without values until it is cleared.  NULL if
+ * there is no memory. */
+const pe_disc *pe_kernel_disc(const pe_kernel *kernel);
+float *pe_kernel_allocate_cells(const pe_kernel *kernel);
+void pe_kernel_clear_cells(const pe_kernel *kernel, float *cells);
 
 /* Adds lights in the tangent frame of the group's normal `member` to zeroed cells. */
 void pe_kernel_spread(const pe_kernel *kernel, const pe_lights *lights, int member, float *cells);
@@ -36,5 +42,9 @@ void pe_kernel_spread(const pe_kernel *kernel, const pe_lights *lights, int memb
  * tangent frame, and for each of the group sums as from pe_filter_points. */
 typedef void pe_kernel_texel(int place, const float o[3], const double (*sums)[4], void *data);
 void pe_kernel_apply(const pe_kernel *kernel, const float *cells, pe_kernel_texel *function, void *data);
+
+/* The same for two grids whose 16 lanes mean something else, which takes less time than one after the other. */
+typedef void pe_kernel_lanes(int place, const float o[3], const float (*sums)[16], void *data);
+void pe_kernel_apply_twice(const pe_kernel *kernel, const float *const cells[2], pe_kernel_lanes *function, void *data);
 
 #endif

@@ -111,7 +111,7 @@ static void test_continuation(int width, int height)
             rgb[3 * (y * width + x)] = (float)x;
             rgb[3 * (y * width + x) + 1] = (float)y;
         }
-    pe_disc_continue(&disc, rgb);
+    pe_disc_continue(&disc, rgb, 3);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             int from_x = (int)rgb[3 * (y * width + x)], from_y = (int)rgb[3 * (y * width + x) + 1];

@@ -213,7 +213,7 @@ static int check_frame(const bake_settings *settings, const char *environment, c
 
 static int bake_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
 {
-    return settings->force ? batch_make(b, environment, output) : batch_update(b, environment, output);
+    return settings->force ? batch_add(b, environment, output) : batch_update(b, environment, output);
 }
 
 static void print_sequence_json(const bake_settings *settings, const batch *b, double seconds)
@@ -267,6 +267,8 @@ static int bake_sequence(const bake_settings *settings, batch *b, double begun)
         return CLI_FAILURE;
     b->count = frames_count(&f);
     result = for_each_frame(settings, &f, bake_frame, b);
+    if (result == CLI_SUCCESS)
+        result = batch_flush(b);
     batch_end(b);
     if (result == CLI_SUCCESS)
         print_sequence(settings, b, clock_seconds() - begun);

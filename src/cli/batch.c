@@ -3,20 +3,22 @@
 
 #include "cli.h"
 #include "interrupt.h"
+#include "parallel.h"
 #include "status.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* Of so many frames made, one has its errors estimated, which takes as long as a good part of its bake. */
-#define ESTIMATE_EVERY 16
+/* Of so many bakes of several frames, one has its errors estimated, which takes longer than the bake. */
+#define ESTIMATE_EVERY 4
 
 static int draw_progress(double fraction, void *data)
 {
     batch *b = data;
 
-    progress_draw(&b->bar, (b->made + fraction) / (b->count - b->left));
+    progress_draw(&b->bar, (b->made + fraction * b->baking) / (b->count - b->left));
     return 0;
 }
 
@@ -39,37 +41,25 @@ static pe_status make_baker(batch *b, const pe_env *env, pe_error *error)
     return pe_baker_make(&b->options, pe_env_width(env), pe_env_height(env), &b->baker, error);
 }
 
-static pe_status bake(batch *b, const pe_env *env, pe_error *error)
+static void note_errors(batch *b, const pe_maps *maps)
 {
-    int is_known = b->made % ESTIMATE_EVERY != 0;
-    pe_status status = pe_baker_bake(b->baker, env, is_known ? &b->errors : NULL, &b->maps, error);
-
-    if (status != PE_OK)
-        return status;
-    b->errors.texels = fmax(b->errors.texels, pe_maps_get_info(b->maps)->error_estimate);
-    b->errors.lookups = fmax(b->errors.lookups, pe_maps_get_info(b->maps)->lookup_error);
-    return status;
+    b->errors.texels = fmax(b->errors.texels, pe_maps_get_info(maps)->error_estimate);
+    b->errors.lookups = fmax(b->errors.lookups, pe_maps_get_info(maps)->lookup_error);
 }
 
-/* Half floats unless floats are asked for or needed: a bake that took minutes is not thrown away for a bright sun. */
-static pe_status write_maps(batch *b, const char *output, pe_error *error)
+static void note_flaws(batch *b, const char *environment, const pe_env *env)
 {
-    pe_status status = pe_maps_write(b->maps, output, b->pixels, error);
-
-    if (b->pixels == PE_PIXEL_FLOAT || status != PE_ERROR_LIMIT)
-        return status;
-    status = pe_maps_write(b->maps, output, PE_PIXEL_FLOAT, error);
-    if (status == PE_OK && !b->quiet) {
-        progress_clear(&b->bar);
-        cli_warning("bake", "%s: brighter than half floats can hold (65504): written as with --float", output);
-    }
-    return status;
+    b->repairs = pe_env_repairs(env);
+    if (b->quiet || !*pe_env_remark(env))
+        return;
+    progress_clear(&b->bar);
+    cli_warn_of_flaws("bake", environment, env);
 }
 
 /* What was asked for may take more memory than the choice may, or a harder environment than it knows. */
-static void warn_of_error(batch *b, const char *output)
+static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
 {
-    const pe_maps_info *info = pe_maps_get_info(b->maps);
+    const pe_maps_info *info = pe_maps_get_info(maps);
     int of_lookups = info->method == PE_METHOD_HEMISPHERES; /* of lat-long maps only texels are measured */
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
 
@@ -81,29 +71,128 @@ static void warn_of_error(batch *b, const char *output)
                 of_lookups ? "give more --normals, and a larger --size" : "--exact has none");
 }
 
-static int bake_file(batch *b, const pe_env *env, const char *environment, const char *output)
+/* ---- write ---- */
+
+/* Half floats unless floats are asked for or needed: a bake that took minutes is not thrown away for a bright sun. */
+static void write_maps(size_t index, void *data)
 {
+    batch *b = data;
+    batch_frame *f = &b->frames[index];
+
+    f->status = pe_maps_write(f->maps, f->output, b->pixels, &f->error);
+    f->needs_floats = b->pixels != PE_PIXEL_FLOAT && f->status == PE_ERROR_LIMIT;
+    if (f->needs_floats)
+        f->status = pe_maps_write(f->maps, f->output, PE_PIXEL_FLOAT, &f->error);
+}
+
+static int finish_frame(batch *b, batch_frame *f)
+{
+    if (f->status != PE_OK)
+        return fail(b, &f->error);
+    if (f->needs_floats && !b->quiet) {
+        progress_clear(&b->bar);
+        cli_warning("bake", "%s: brighter than half floats can hold (65504): written as with --float", f->output);
+    }
+    warn_of_error(b, f->maps, f->output);
+    b->made++;
+    return CLI_SUCCESS;
+}
+
+static int write_frames(batch *b, int count)
+{
+    int result = CLI_SUCCESS;
+
+    for (int k = 0; k < count; k++)
+        interrupt_hold(b->frames[k].output);
+    pe_parallel_for((size_t)count, b->options.threads, write_maps, b, NULL);
+    interrupt_release();
+    for (int k = 0; k < count && result == CLI_SUCCESS; k++)
+        result = finish_frame(b, &b->frames[k]);
+    return result;
+}
+
+/* ---- frames that wait to be made together ---- */
+
+static void free_frame(batch_frame *f)
+{
+    pe_env_free(f->env);
+    pe_maps_free(f->maps);
+    free(f->environment);
+    free(f->output);
+    *f = (batch_frame){ .env = NULL };
+}
+
+/* Keeps the last one's maps. */
+static void clear_frames(batch *b)
+{
+    if (b->waiting && b->frames[b->waiting - 1].maps) {
+        pe_maps_free(b->maps);
+        b->maps = b->frames[b->waiting - 1].maps;
+        b->frames[b->waiting - 1].maps = NULL;
+    }
+    while (b->waiting)
+        free_frame(&b->frames[--b->waiting]);
+}
+
+static void read_frame(size_t index, void *data)
+{
+    batch_frame *f = &((batch *)data)->frames[index];
+
+    f->status = cli_read_environment(f->environment, &f->env, &f->error);
+}
+
+/* How many of those that wait can be baked: all before the first that cannot, whose error says why. */
+static int count_sound(batch *b)
+{
+    const pe_maps_info *info = pe_baker_get_info(b->baker);
+
+    for (int k = 0; k < b->waiting; k++) {
+        batch_frame *f = &b->frames[k];
+
+        if (f->status == PE_OK &&
+            (pe_env_width(f->env) != info->source_width || pe_env_height(f->env) != info->source_height)) {
+            const pe_env *alone = f->env; /* is refused, with the reason */
+
+            f->status = pe_baker_bake_frames(b->baker, &alone, 1, &b->errors, &f->maps, &f->error);
+        }
+        if (f->status != PE_OK)
+            return k;
+        note_flaws(b, f->environment, f->env);
+    }
+    return b->waiting;
+}
+
+static int bake_frames(batch *b, int count)
+{
+    const pe_env *envs[PE_FRAMES_MAX];
+    pe_maps *maps[PE_FRAMES_MAX];
     pe_status status;
     pe_error error;
 
-    pe_maps_free(b->maps);
-    b->maps = NULL;
-    b->repairs = pe_env_repairs(env);
-    if (!b->quiet && *pe_env_remark(env)) {
-        progress_clear(&b->bar);
-        cli_warn_of_flaws("bake", environment, env);
-    }
-    status = bake(b, env, &error);
+    for (int k = 0; k < count; k++)
+        envs[k] = b->frames[k].env;
+    b->baking = count;
+    status = pe_baker_bake_frames(b->baker, envs, count, b->bakes++ % ESTIMATE_EVERY ? &b->errors : NULL, maps, &error);
     if (status != PE_OK)
         return fail(b, &error);
-    interrupt_hold(output);
-    status = write_maps(b, output, &error);
-    interrupt_release();
-    if (status != PE_OK)
-        return fail(b, &error);
-    warn_of_error(b, output);
-    b->made++;
-    return CLI_SUCCESS;
+    for (int k = 0; k < count; k++)
+        b->frames[k].maps = maps[k];
+    note_errors(b, maps[0]);
+    return write_frames(b, count);
+}
+
+int batch_flush(batch *b)
+{
+    int result = CLI_SUCCESS, sound;
+
+    pe_parallel_for((size_t)b->waiting, b->options.threads, read_frame, b, NULL);
+    sound = b->waiting ? count_sound(b) : 0;
+    if (sound)
+        result = bake_frames(b, sound);
+    if (result == CLI_SUCCESS && sound < b->waiting)
+        result = fail(b, &b->frames[sound].error);
+    clear_frames(b);
+    return result;
 }
 
 /* ---- what is there already ---- */
@@ -154,51 +243,76 @@ static int is_made(const batch *b, const char *environment, const char *output)
 
 /* ---- a frame ---- */
 
-typedef int can_stay(const batch *b, const char *environment, const char *output);
-
-static int never(const batch *b, const char *environment, const char *output)
+/* The first environment says for which size the baker is to be. */
+static int need_baker(batch *b, const char *environment)
 {
-    (void)b;
-    (void)environment;
-    (void)output;
-    return 0;
-}
-
-/* The first environment says for which size the baker is to be; after it, what can stay is not read. */
-static int make_unless(can_stay *stays, batch *b, const char *environment, const char *output)
-{
+    pe_status status;
     pe_error error;
     pe_env *env;
-    int result;
 
-    if (b->baker && stays(b, environment, output)) {
-        b->left++;
+    if (b->baker)
         return CLI_SUCCESS;
-    }
     if (cli_read_environment(environment, &env, &error) != PE_OK)
         return fail(b, &error);
-    if (make_baker(b, env, &error) != PE_OK) {
-        pe_env_free(env);
-        return fail(b, &error);
-    }
-    if (b->made + b->left == 0 && stays(b, environment, output)) {
-        b->left++;
-        result = CLI_SUCCESS;
-    } else {
-        result = bake_file(b, env, environment, output);
-    }
+    status = make_baker(b, env, &error);
     pe_env_free(env);
-    return result;
+    return status == PE_OK ? CLI_SUCCESS : fail(b, &error);
 }
 
-int batch_make(batch *b, const char *environment, const char *output)
+int batch_add(batch *b, const char *environment, const char *output)
 {
-    return make_unless(never, b, environment, output);
+    batch_frame *f = &b->frames[b->waiting];
+
+    if (need_baker(b, environment) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    f->environment = strdup(environment);
+    f->output = strdup(output);
+    b->waiting++;
+    if (!f->environment || !f->output) {
+        cli_error("bake", "out of memory");
+        return CLI_FAILURE;
+    }
+    return b->waiting == PE_FRAMES_MAX ? batch_flush(b) : CLI_SUCCESS;
 }
 
 int batch_update(batch *b, const char *environment, const char *output)
 {
-    return make_unless(is_made, b, environment, output);
+    if (need_baker(b, environment) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    if (!is_made(b, environment, output))
+        return batch_add(b, environment, output);
+    b->left++;
+    return CLI_SUCCESS;
+}
+
+/* ---- one alone ---- */
+
+static int bake_alone(batch *b, batch_frame *f)
+{
+    note_flaws(b, f->environment, f->env);
+    b->baking = 1;
+    f->status = make_baker(b, f->env, &f->error);
+    if (f->status == PE_OK)
+        f->status = pe_baker_bake(b->baker, f->env, NULL, &f->maps, &f->error);
+    return f->status == PE_OK ? write_frames(b, 1) : fail(b, &f->error);
+}
+
+int batch_make(batch *b, const char *environment, const char *output)
+{
+    batch_frame *f = &b->frames[0];
+    int result;
+
+    b->waiting = 1;
+    f->environment = strdup(environment);
+    f->output = strdup(output);
+    if (!f->environment || !f->output) {
+        cli_error("bake", "out of memory");
+        return CLI_FAILURE;
+    }
+    read_frame(0, b);
+    result = f->status == PE_OK ? bake_alone(b, f) : fail(b, &f->error);
+    clear_frames(b);
+    return result;
 }
 
 void batch_end(batch *b)
@@ -208,6 +322,7 @@ void batch_end(batch *b)
 
 void batch_free(batch *b)
 {
+    clear_frames(b);
     pe_maps_free(b->maps);
     pe_baker_free(b->baker);
 }

@@ -1,0 +1,23 @@
+/* bake.h - inside a baker. */
+#ifndef PE_BAKE_H
+#define PE_BAKE_H
+
+#include "kernel.h"
+#include "lobe.h"
+#include "maps.h"
+
+struct pe_baker {
+    pe_bake_options options;
+    pe_maps_info info;        /* of the maps it makes, as far as the environment is not asked */
+    pe_maps_info hemispheres; /* those that are filtered: the same, or what lat-long maps are looked up in */
+    pe_lobe *lobe;
+    pe_kernel *kernel; /* NULL: they are filtered light by light */
+};
+
+/* *shrunk is env with as few texels as the baker's fast maps need, or NULL, where that is env itself. */
+pe_status pe_baker_shrink(const pe_baker *baker, const pe_env *env, pe_env **shrunk, pe_error *error);
+
+/* Is env of the baker's size? */
+pe_status pe_baker_check_size(const pe_baker *baker, const pe_env *env, pe_error *error);
+
+#endif
