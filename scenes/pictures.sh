@@ -1,4 +1,4 @@
-# pictures.sh - how figures.sh and teapot.sh make maps and pictures; read after common.sh, in figures/ of the build tree.
+# pictures.sh - how figures.sh and teapot.sh make maps and pictures; read after common.sh, in the folder of the figures.
 #
 # What is up to date is left as it is, and said to be: a picture if it is no older than its scene, its maps and the
 # renderer, and was made by the same command.  The reader sets

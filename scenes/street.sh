@@ -4,8 +4,8 @@
 #   make street               48 frames, 3 seconds of it; make FRAMES=695 street has all that the paper has, 46 seconds
 #
 # Written into figures/street/ of the build tree: street_001.exr, ..., what is seen all around (street.pov);
-# street_001.pe.exr, ..., the same baked as a sequence; teapot8_001.png, ... (teapot8.pov); contact.png, twelve of them on
-# a sheet; and film.webm, if ffmpeg is installed.  What is up to date is left as it is, and said to be.
+# street_001.pe.exr, ..., the same baked as a sequence; teapot8_001.png, ... (teapot8.pov); contact.png, twelve of them
+# on a sheet; and film.webm, if ffmpeg is installed.  What is up to date is left as it is, and said to be.
 
 set -euo pipefail
 

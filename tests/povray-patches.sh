@@ -29,8 +29,9 @@ if [ ! -e "$source" ]; then
     exit
 fi
 
-# Only the files that are patched.
-files=$(cd "$patches" && sed -n 's,^--- a/,,p' $series | sort -u)
+# Only the files that are patched, and not those that a patch makes for a later one to change.
+files=$(cd "$patches" && comm -23 <(sed -n 's,^--- a/,,p' $series | sort -u) \
+    <(sed -n '/^--- .dev.null$/ { n; s,^+++ b/,,p }' $series | sort -u))
 if [ -d "$source" ]; then
     (cd "$source" && tar -cf - $files) | tar -C "$work" -xf -
 else

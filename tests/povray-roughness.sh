@@ -1,0 +1,128 @@
+#!/bin/bash
+# Roughness that varies, point by point: what POV-Ray shows with `samples all` is what `prefenv exact` answers for the
+# same normal, viewer and roughness, whether that comes from numbers, a pattern, a pigment or a function, and however
+# the texture stands.
+
+. "$srcdir/tests/tap.sh"
+. "$srcdir/tests/povray/render.sh"
+
+size=24
+chart chart.hdr 32 16
+"$rays" rays $size 3 30,40,10 0,0,0 >rays.txt
+
+# sphere NAME BLOCK [OF-THE-TEXTURE [OF-THE-OBJECT]]: NAME.exr; a point of the sphere is its own normal
+sphere()
+{
+    scene "$1.pov" <<END
+camera { location -3*z direction z right x up y rotate <30, 40, 10> }
+#declare Height = function { 0.5 + 0.4 * y };
+sphere {
+    0, 1
+    ${5:-}
+    texture {
+        pigment { rgb 1 }
+        finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { hdr "chart.hdr" $2 } } }
+        ${3:-}
+    }
+    ${4:-}
+}
+END
+    rm -f "$1.exr"
+    render "$1.pov" +W$size +H$size +FE "+O$1.exr" || note "$said"
+}
+
+# exactly NAME PICTURE LAMBDA OPTION...: prefenv exact with LAMBDA, an expression of awk in x, y, z
+exactly()
+{
+    awk "{ x = \$1; y = \$2; z = \$3; print \$0, ($3) }" rays.txt |
+        "$PREFENV" exact chart.hdr --phong "${@:4}" >wanted.txt || note 'prefenv exact failed'
+    ok "$1" "$rays" check "$2.exr" 3 1e-3 <wanted.txt && note "$tap_output"
+}
+
+same()
+{
+    ok "$1" "$PREFENV" diff "$2.exr" "$3.exr" --fail-above-relative "${4:-0.0005}" || note "$tap_output"
+}
+
+# ---- one roughness ----
+
+sphere all 'roughness 0.4, 0.2 direction y samples all'
+"$PREFENV" exact chart.hdr --alpha 0.4,0.2 <rays.txt >wanted.txt
+ok 'roughness, samples all: prefenv exact' "$rays" check all.exr 3 1e-3 <wanted.txt && note "$tap_output"
+sphere many 'roughness 0.4, 0.2 direction y samples 20000'
+same '... which a number of samples comes near, though it looks between texels' many all 0.03
+sphere smooth 'lambda 0.6 samples all'
+exactly 'lambda, samples all: Phong, the light from below the surface hidden' smooth 0.6 --horizon dark
+sphere rough 'lambda 0.05 samples all'
+exactly '... which tells on rough surfaces' rough 0.05 --horizon dark
+sphere below 'lambda 0.05 samples all shadowless'
+exactly 'shadowless: it counts' below 0.05
+fails '... and makes a difference' "$PREFENV" diff rough.exr below.exr --fail-above-relative 0.01
+
+# ---- what varies ----
+
+varying='samples all shadowless'
+sphere function "lambda function { 0.5 + 0.4 * y } $varying"
+exactly 'a function' function '0.5 + 0.4 * y'
+sphere named "lambda function { Height(x, y, z) } rotate 0 $varying"
+exactly 'a function by its name' named '0.5 + 0.4 * y'
+sphere steep "lambda function { 3 * y } $varying"
+exactly '... beyond 0 and 1: as if it ended there' steep '3 * y < 0 ? 0 : 3 * y > 1 ? 1 : 3 * y'
+sphere range "lambda 0.2, 0.8 function { 2 * y } $varying"
+exactly 'two numbers and a function: from the one to the other' range \
+    '0.2 + 0.6 * (2 * y < 0 ? 0 : 2 * y > 1 ? 1 : 2 * y)'
+gradient='gradient y translate -y/2 scale 4'
+sphere pattern "lambda 0.9, 0.1 pattern { $gradient } $varying"
+exactly 'two numbers and a pattern' pattern '0.9 - 0.8 * (y / 4 + 0.5)'
+sphere bare "lambda pattern { $gradient } $varying"
+exactly 'a pattern by itself' bare 'y / 4 + 0.5'
+sphere pigment "lambda pigment { $gradient color_map { [0 rgb 0.1] [1 rgb 0.9] } } $varying"
+exactly 'a pigment: its brightness' pigment '0.1 + 0.8 * (y / 4 + 0.5)'
+sphere checker 'roughness 0.2, 0.5 pattern { checker } samples all'
+sphere both 'roughness pigment { checker rgb 0.2 rgb 0.5 } samples all'
+same 'roughness takes the same words as lambda' checker both
+sphere even 'roughness 0.4 samples all'
+sphere same 'roughness function { 0.4 } samples all'
+same '... and a function of one value is that value' same even 0
+sphere drawn 'roughness function { 0.4 } samples 300'
+sphere alone 'roughness 0.4 samples 300'
+same '... with a number of samples, too' drawn alone 0
+
+# ---- where it stands ----
+
+sphere texture "lambda function { 0.5 + 0.4 * x } $varying" 'rotate 90*z'
+exactly 'it follows the texture' texture '0.5 + 0.4 * y'
+sphere object "lambda function { 0.5 + 0.4 * x } $varying" '' 'rotate 90*z'
+exactly 'it follows the object' object '0.5 + 0.4 * y'
+sphere block "lambda function { 0.5 + 0.4 * y } rotate 90*y $varying" 'rotate 90*z rotate -90*z'
+"$rays" rays $size 3 30,40,10 0,90,0 | paste -d' ' - rays.txt |
+    awk '{ print $1, $2, $3, $4, $5, $6, 0.5 + 0.4 * $8 }' | "$PREFENV" exact chart.hdr --phong >wanted.txt
+ok 'the transformations of the block are those of the environment alone' "$rays" check block.exr 3 1e-3 <wanted.txt
+sphere uv "lambda function { y } $varying" '' '' uv_mapping
+exactly 'uv-mapped: along u and v' uv '0.5 + atan2(y, sqrt(x * x + z * z)) / 3.14159265358979'
+sphere brush "roughness 0.2, 0.5 pattern { checker } direction x pattern { bozo } samples all"
+same 'the pattern of the brush is another' brush checker
+
+# ---- errors, each in line 5 ----
+
+wrong() # TEXT WORDS PATTERN
+{
+    printf 'sphere { 0, 1 pigment { rgb 1 } finish { reflection { 1\nprefiltered_environment { %s } } } }\n' "$2" |
+        scene error.pov
+    rejected "$1" "File 'error.pov' line 5: Parse Error: $3" error.pov
+}
+
+bake chart.hdr -o maps.exr --alpha 0.3 --normals 12 --size 16x8
+wrong 'lambda 1.5' 'hdr "chart.hdr" lambda 1.5 samples all' 'lambda must lie between 0 .* but 1.5, 1.5 was given'
+wrong 'a range of nothing' 'hdr "chart.hdr" lambda 0.2, 0.5 samples all' 'lambda 0.2, 0.5 is a range: say by what'
+wrong 'a range out of range' \
+    'hdr "chart.hdr" roughness 0, 0.5 pattern { bozo } samples all' 'roughness must lie between'
+wrong 'lambda with some samples' 'hdr "chart.hdr" lambda 0.5 samples 20' 'lambda needs samples all'
+wrong 'lambda with a type' 'hdr "chart.hdr" lambda 0.5 type 2 samples all' "lambda is that of Phong's lobe"
+wrong 'shadowless roughness' 'hdr "chart.hdr" roughness 0.5 samples all shadowless' 'shadowless lets light .* lambda'
+wrong 'maps of one roughness' 'exr "maps.exr" roughness function { x }' 'This file holds maps baked for one roughness'
+wrong 'maps with samples all' 'exr "maps.exr" samples all' 'This file holds maps baked for one roughness'
+wrong 'a pigment with a roughness' 'hdr "chart.hdr" roughness' 'Numeric expression|Expected'
+wrong 'a pattern without samples' 'hdr "chart.hdr" roughness pattern { bozo }' 'A roughness that varies needs samples'
+
+done_testing
