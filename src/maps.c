@@ -214,7 +214,7 @@ void pe_maps_normal(const pe_maps *maps, int k, double n[3])
 
 void pe_maps_frame(const pe_maps *maps, int k, pe_frame *frame)
 {
-    double n[3], turn = M_PI * (k % maps->info.angles) / maps->info.angles;
+    double n[3], turn = pe_maps_turn(&maps->info) * (k % maps->info.angles) / maps->info.angles;
     pe_frame still;
 
     pe_maps_normal(maps, k, n);
@@ -243,7 +243,7 @@ static void set_frames(pe_maps *maps)
 static void set_turns(pe_maps *maps)
 {
     for (int k = 0; k < maps->info.angles; k++) {
-        double angle = M_PI * k / maps->info.angles;
+        double angle = pe_maps_turn(&maps->info) * k / maps->info.angles;
 
         maps->turns[k][0] = (float)cos(angle);
         maps->turns[k][1] = (float)sin(angle);

@@ -41,6 +41,13 @@ pe_status pe_maps_create(const pe_maps_info *info, pe_maps **out, pe_error *erro
 /* To be called when the images and the suns are there and before anything is looked up. */
 pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error);
 
+/* What the angles of brush directions divide: half a turn, after which a closed form is the same again, or, of what was
+ * measured, a whole one. */
+static inline double pe_maps_turn(const pe_maps_info *info)
+{
+    return info->surface.ndf.kind == PE_NDF_TABLE ? 2 * M_PI : M_PI;
+}
+
 /* The tangent frame of image k of hemispheres: its vertex's, turned about the normal by its angle. */
 void pe_maps_frame(const pe_maps *maps, int k, pe_frame *frame);
 

@@ -5,7 +5,7 @@
  * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
  * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
- * :lookupError, :suns, and for each sun :sun.00.direction and :sun.00.power. */
+ * :lookupError, :suns, :turn (the degrees that the angles divide), and for each sun :sun.00.direction and :sun.00.power. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"
@@ -24,7 +24,7 @@ static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
 #define ATTRIBUTES 17
-#define HEMISPHERE_ATTRIBUTES 5
+#define HEMISPHERE_ATTRIBUTES 6
 #define SUN_NAME_MAX 40
 
 /* ---- write ---- */
@@ -74,12 +74,17 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
     memcpy(out, all, sizeof all);
 }
 
+static int turn_of(const pe_maps_info *info)
+{
+    return (int)nearbyint(pe_maps_turn(info) * 180 / M_PI);
+}
+
 static void describe_hemispheres(const pe_maps_info *info, pe_attribute out[HEMISPHERE_ATTRIBUTES])
 {
     const pe_attribute all[HEMISPHERE_ATTRIBUTES] = {
         integer("prefenv:angles", info->angles), integer("prefenv:width", info->width),
         integer("prefenv:height", info->height), number("prefenv:lookupError", info->lookup_error),
-        integer("prefenv:suns", info->suns),
+        integer("prefenv:suns", info->suns),     integer("prefenv:turn", turn_of(info)),
     };
 
     memcpy(out, all, sizeof all);
@@ -316,6 +321,21 @@ static pe_status check_version(const header *from)
     if (status == PE_OK) \
         status = (call);
 
+/* Files of tables from before there was this attribute divide half a turn, which they are not the same after. */
+static pe_status check_turn(const header *from, const pe_maps_info *info)
+{
+    int turn = 180;
+    pe_attribute a = integer("prefenv:turn", 0);
+
+    if (pe_exr_get_attribute(from->file, 0, &a))
+        turn = a.integer;
+    if (info->angles == 1 || turn == turn_of(info))
+        return PE_OK;
+    return pe_fail(from->error, PE_ERROR_FORMAT,
+                   "%s: its %d angles divide %d degrees where %d are read here; bake it again", from->name,
+                   info->angles, turn, turn_of(info));
+}
+
 /* What hemispheres have besides. */
 static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
 {
@@ -329,6 +349,7 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
     AND_THEN(get_integer(from, "prefenv:height", &info->height))
     AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
     AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
+    AND_THEN(check_turn(from, info))
     if (status == PE_OK && info->suns && !pe_suns_possible(&info->surface))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has suns, which maps of its ndf cannot have", from->name);
     if (status == PE_OK && (info->suns < 0 || info->suns > PE_SUNS_MAX))

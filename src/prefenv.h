@@ -440,7 +440,7 @@ typedef struct pe_maps_info {
     double direction[3];
     int normals;       /* 0 for baseline */
     int frequency;     /* of the geodesic sphere; 0 for baseline */
-    int angles;        /* brush directions, half a turn / angles apart; 1: `direction` alone */
+    int angles;        /* brush directions, half a turn / angles apart, of a table a turn; 1: `direction` alone */
     int images;        /* held: normals * angles; lat-long: normals / 2, or 1 */
     int width, height; /* of each */
     int suns;          /* lights kept apart from the images */

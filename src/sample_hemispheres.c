@@ -3,7 +3,7 @@
  * In the frame of n_k the direction r is a point of n_k's picture, and the cubic B-spline there takes 4 x 4 texels.  A
  * map whose horizon r is below answers with its horizon's, so that nothing jumps.  Where the brush may point anywhere,
  * its direction at n is carried along to n_k's tangent plane, and the four angles about it are mixed by a cubic that
- * goes round and round in half turns.  Each angle's picture has its own turned frame, so that a narrow lobe lies along
+ * goes round and round in half turns, or whole ones.  Each angle's picture has its own turned frame, so that a narrow lobe lies along
  * its axes. */
 #include "look.h"
 #include "sample.h"
@@ -53,7 +53,7 @@ static void add_angles(int vertex, double weight, void *data)
 
     enter((const float(*)[3])sum->maps->frames[vertex], sum->r, local);
     enter((const float(*)[3])sum->maps->frames[vertex], sum->brush, brush);
-    at = (float)(atan2((double)brush[1], (double)brush[0]) / M_PI + 1) * (float)angles;
+    at = (float)(atan2((double)brush[1], (double)brush[0]) / pe_maps_turn(&sum->maps->info) + 1) * (float)angles;
     first = (int)at;
     pe_interpolating_weights(at - (float)first, weights);
     for (int k = 0; k < 4; k++) {

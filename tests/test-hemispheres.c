@@ -475,7 +475,7 @@ static void test_continuity(int angles)
 typedef enum brush { BRUSH_OF_FILE, BRUSH_GIVEN, BRUSH_RANDOM } brush;
 
 /* Relative error of lookups: the file's brush, left out or given, or another for each view. */
-static double brush_error(const pe_env *env, const pe_maps *maps, brush kind)
+static double brush_error(const pe_env *env, const pe_maps *maps, const pe_surface *surface, brush kind)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
     difference d = { 0, 0, 0 };
@@ -489,7 +489,7 @@ static double brush_error(const pe_env *env, const pe_maps *maps, brush kind)
         if (kind != BRUSH_RANDOM)
             memcpy(direction, info->direction, sizeof direction);
         sample_point(maps, NULL, kind == BRUSH_OF_FILE ? NULL : direction, n, o, got);
-        pe_exact(env, &info->surface, direction, n, o, exact);
+        pe_exact(env, surface, direction, n, o, exact);
         compare(got, exact, &d);
     }
     return relative(&d);
@@ -504,17 +504,66 @@ static void test_brush(double alpha_x, double alpha_y, int angles)
                                 .height = 43,
                                 .accuracy = PE_ACCURACY_FAST };
     pe_maps *fixed = bake(env, &options), *turning;
-    double error = brush_error(env, fixed, BRUSH_OF_FILE), given, any;
+    double error = brush_error(env, fixed, &options.surface, BRUSH_OF_FILE), given, any;
 
     options.angles = angles;
     turning = bake(env, &options);
-    given = brush_error(env, turning, BRUSH_GIVEN);
-    any = brush_error(env, turning, BRUSH_RANDOM);
-    ok(any < 1.5 * error && given < 1.5 * error && brush_error(env, turning, BRUSH_OF_FILE) == given,
+    given = brush_error(env, turning, &options.surface, BRUSH_GIVEN);
+    any = brush_error(env, turning, &options.surface, BRUSH_RANDOM);
+    ok(any < 1.5 * error && given < 1.5 * error && brush_error(env, turning, &options.surface, BRUSH_OF_FILE) == given,
        "alpha %g, %g, %d angles: error %.2f %% with random brushes, %.2f %% with the file's; fixed %.2f %%", alpha_x,
        alpha_y, angles, 100 * any, 100 * given, 100 * error);
     pe_maps_free(turning);
     pe_maps_free(fixed);
+    pe_env_free(env);
+}
+
+/* Slopes about one that is not 0, and none about its opposite: after half a turn it is another surface. */
+static pe_ndf_table *make_slope(void)
+{
+    enum { CELLS = 40 };
+    static const double p_range[2] = { -0.2, 0.6 }, q_range[2] = { -0.4, 0.4 };
+    static float density[CELLS * CELLS];
+    pe_ndf_table *table;
+    pe_error error;
+
+    for (int k = 0; k < CELLS * CELLS; k++) {
+        int row = k / CELLS;
+        double p = (k % CELLS + 0.5 - CELLS / 2.0) / CELLS * 0.8, q = (row + 0.5 - CELLS / 2.0) / CELLS * 0.8;
+
+        density[k] = (float)exp(-(p * p + q * q) / (0.12 * 0.12));
+    }
+    need(pe_ndf_table_create(CELLS, CELLS, p_range, q_range, density, &table, &error) == PE_OK, "%s", error.message);
+    return table;
+}
+
+static void test_brush_of_table(void)
+{
+    pe_env *env = make_env(64, 32, reference_room(64, 32));
+    pe_ndf_table *table = make_slope();
+    pe_bake_options options = { .surface.ndf = { PE_NDF_TABLE, 0, 0, table },
+                                .normals = 162,
+                                .width = 36,
+                                .height = 36,
+                                .accuracy = PE_ACCURACY_FAST };
+    const char *path = "test-hemispheres.turn.exr";
+    pe_maps *fixed = bake(env, &options), *turning, *read;
+    double error = brush_error(env, fixed, &options.surface, BRUSH_OF_FILE), any;
+    pe_error why;
+
+    options.angles = 16;
+    turning = bake(env, &options);
+    any = brush_error(env, turning, &options.surface, BRUSH_RANDOM);
+    ok(any < error, "a table that half a turn changes, 16 angles: error %.2f %% with random brushes, fixed %.2f %%",
+       100 * any, 100 * error);
+    need(pe_maps_write(turning, path, PE_PIXEL_FLOAT, &why) == PE_OK && pe_maps_read(path, &read, &why) == PE_OK, "%s",
+         why.message);
+    ok(fabs(brush_error(env, read, &options.surface, BRUSH_RANDOM) - any) < 1e-6, "its file reads as it was written");
+    unlink(path);
+    pe_maps_free(read);
+    pe_maps_free(turning);
+    pe_maps_free(fixed);
+    pe_ndf_table_free(table);
     pe_env_free(env);
 }
 
@@ -582,6 +631,7 @@ int main(void)
     test_continuity(1);
     test_continuity(6);
     test_brush(0.3, 0.1, 12);
+    test_brush_of_table();
     test_file(PE_PIXEL_HALF, 1e-3);
     test_file(PE_PIXEL_FLOAT, 1e-6);
     return done_testing();
