@@ -19,14 +19,46 @@
 /* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
 #define AUTO_EXACT_TEXELS_MAX (128 * 64)
 
+/* A part of a bake, of the whole that the caller is told of. */
+typedef struct stage {
+    const pe_bake_options *options;
+    double begin, share;
+} stage;
+
+static int report_stage(double fraction, void *data)
+{
+    const stage *s = data;
+
+    return s->options->progress(s->begin + s->share * fraction, s->options->progress_data);
+}
+
+static pe_report report_on(stage *s)
+{
+    return (pe_report){ s->options->progress ? report_stage : NULL, s, 0, 1 };
+}
+
 /* What one bake shares. */
 typedef struct job {
     const pe_baker *baker;
     const pe_env *fine;          /* what the environment was shrunk from, or itself */
     const pe_bake_errors *known; /* or NULL */
     pe_maps *maps;
-    pe_report report;
+    stage stage;
+    pe_report report; /* on the stage */
 } job;
+
+/* Where the kernel fills the maps, looking at their errors takes as long. */
+static double estimate_share(const pe_baker *b)
+{
+    return b->kernel ? 0.5 : 0.1;
+}
+
+static void begin_stage(job *j, double share)
+{
+    j->stage.begin += j->stage.share;
+    j->stage.share = share;
+    j->report = report_on(&j->stage);
+}
 
 /* ---- lights ---- */
 
@@ -48,7 +80,7 @@ static double cluster_count(const pe_ndf *ndf, double wanted)
 }
 
 /* With half as many clusters as texels there is nothing to gain from them. */
-static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
+static pe_status make_cloud(job *j, const pe_env *env, pe_cloud *cloud, pe_error *error)
 {
     double texels = (double)env->width * env->height;
     double clusters = cluster_count(&j->baker->info.surface.ndf, pe_wanted_error(&j->baker->options));
@@ -57,7 +89,7 @@ static pe_status make_cloud(const job *j, const pe_env *env, pe_cloud *cloud, pe
         clusters *= CLUSTERS_OF_HEMISPHERES;
     if (j->baker->info.accuracy == PE_ACCURACY_EXACT || clusters > texels / 2)
         return pe_cloud_from_env(env, cloud, error);
-    return pe_cloud_from_clusters(env, (size_t)clusters, cloud, error);
+    return pe_cloud_from_clusters(env, (size_t)clusters, &j->report, cloud, error);
 }
 
 /* The fast mode passes over lights whose exponential is below exp(-18) = 1.5e-8 of the mirror's; 1 / cos^4 of their
@@ -109,9 +141,12 @@ static pe_status bake_pairs_from_hemispheres(job *j, const pe_env *env, pe_error
 
     if (status != PE_OK)
         return status;
+    j->stage.share /= 2;
     status = bake_hemispheres(j, env, hemispheres, error);
+    begin_stage(j, j->stage.share);
+    j->report.total = (double)j->maps->info.images * j->maps->info.height;
     if (status == PE_OK)
-        status = pe_fill_pairs_from_hemispheres(hemispheres, j->baker->options.threads, NULL, j->maps);
+        status = pe_fill_pairs_from_hemispheres(hemispheres, j->baker->options.threads, &j->report, j->maps);
     j->maps->suns = hemispheres->suns; /* which are in the images; where they are matters to the estimate */
     pe_maps_free(hemispheres);
     return status;
@@ -160,8 +195,10 @@ static pe_status record_errors(job *j, const pe_env *env, pe_error *error)
 {
     pe_maps_info *info = &j->maps->info;
 
-    if (!j->known)
-        return pe_estimate_errors(env, j->maps, j->baker->lobe, j->baker->options.threads, error);
+    if (!j->known) {
+        begin_stage(j, estimate_share(j->baker));
+        return pe_estimate_errors(env, j->maps, j->baker->lobe, j->baker->options.threads, &j->report, error);
+    }
     info->error_estimate = j->known->texels;
     info->lookup_error = j->known->lookups;
     return PE_OK;
@@ -298,6 +335,8 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
 {
     const pe_maps_info *info = &b->hemispheres;
     pe_disc map = { info->width, info->height }, cells = pe_kernel_cells(b->lobe, pe_wanted_error(&b->options));
+    stage nothing_done = { &b->options, 0, 0 };
+    pe_report report;
 
     if (b->info.method == PE_METHOD_REPRESENTATIVE &&
         (double)info->normals * info->width * info->height > HIDDEN_TEXELS_MAX)
@@ -305,7 +344,8 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
     if (b->info.method == PE_METHOD_BASELINE || info->accuracy != PE_ACCURACY_FAST ||
         !pe_kernel_suits(b->lobe, &cells, info->width, info->height))
         return PE_OK;
-    return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &b->kernel, error);
+    report = report_on(&nothing_done);
+    return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &report, &b->kernel, error);
 }
 
 static pe_status prepare(pe_baker *b, int width, int height, pe_error *error)
@@ -332,6 +372,8 @@ pe_status pe_baker_make(const pe_bake_options *options, int width, int height, p
     }
     b->options = *options;
     status = prepare(b, width, height, error);
+    if (status == PE_ERROR_CANCELLED)
+        pe_fail(error, status, "cancelled");
     if (status == PE_OK)
         *out = b;
     else
@@ -368,9 +410,7 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
                         pe_error *error)
 {
     pe_maps_info info = b->info;
-    job j = {
-        .baker = b, .fine = env, .known = known, .report = { b->options.progress, b->options.progress_data, 0, 1 }
-    };
+    job j = { .baker = b, .fine = env, .known = known, .stage = { &b->options, 0, 0 } };
     pe_status status = pe_baker_check_size(b, env, error);
 
     info.source_name = env->name;
@@ -378,6 +418,7 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
         status = pe_maps_create(&info, &j.maps, error);
     if (status != PE_OK)
         return status;
+    begin_stage(&j, known ? 1 : 1 - estimate_share(b));
     status = info.accuracy == PE_ACCURACY_FAST ? fill_maps_from_shrunk(&j, error) : fill_maps(&j, env, error);
     if (status == PE_ERROR_CANCELLED)
         pe_fail(error, status, "cancelled");

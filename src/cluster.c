@@ -31,6 +31,8 @@ typedef struct tree {
     node *nodes;
     int *heap; /* indices of leaves that may be split, greatest spread first */
     size_t node_count, heap_count;
+    const pe_report *report;
+    size_t unreported; /* texels gathered since the report was called */
 } tree;
 
 static double mean_luminance(const pe_env *env)
@@ -112,6 +114,7 @@ static void add_node(tree *t, pe_rect area)
 {
     moments m;
 
+    t->unreported += (size_t)(area.right - area.left) * (size_t)(area.bottom - area.top);
     gather(t, &area, &m);
     t->nodes[t->node_count] = (node){ area, spread_of(&m), 0 };
     if (area.right - area.left > 1 || area.bottom - area.top > 1)
@@ -144,12 +147,28 @@ static void split(tree *t, int parent)
     add_node(t, second);
 }
 
-static void grow(tree *t, size_t leaves)
+#define TEXELS_A_REPORT ((size_t)1 << 20) /* some hundredths of a second */
+
+static int is_cancelled(tree *t)
+{
+    const pe_report *report = t->report;
+
+    if (!report || !report->function || t->unreported < TEXELS_A_REPORT)
+        return 0;
+    t->unreported = 0;
+    return report->function(report->done / report->total, report->data);
+}
+
+static pe_status grow(tree *t, size_t leaves)
 {
     t->node_count = t->heap_count = 0;
     add_node(t, (pe_rect){ 0, 0, t->env->width, t->env->height });
-    for (size_t made = 1; made < leaves && t->heap_count; made++)
+    for (size_t made = 1; made < leaves && t->heap_count; made++) {
         split(t, pop(t));
+        if (is_cancelled(t))
+            return PE_ERROR_CANCELLED;
+    }
+    return PE_OK;
 }
 
 /* The largest distance between the unit vectors of a texel of the area and of its light. */
@@ -199,28 +218,38 @@ static void harvest(const tree *t, int index, pe_cloud *cloud)
 
 #define FLOOR_SHARE 0.25
 
-pe_status pe_cloud_from_clusters(const pe_env *env, size_t count, pe_cloud *cloud, pe_error *error)
+static pe_status fill(tree *t, size_t leaves, pe_cloud *cloud, pe_error *error)
+{
+    pe_status status;
+
+    t->nodes = malloc(2 * leaves * sizeof *t->nodes);
+    t->heap = malloc(2 * leaves * sizeof *t->heap);
+    if (!t->nodes || !t->heap)
+        return pe_fail_memory(error, "a tree of lights");
+    status = grow(t, leaves);
+    if (status != PE_OK)
+        return status;
+    cloud->count = 0;
+    cloud->floor = t->floor;
+    harvest(t, 0, cloud);
+    return PE_OK;
+}
+
+pe_status pe_cloud_from_clusters(const pe_env *env, size_t count, const pe_report *report, pe_cloud *cloud,
+                                 pe_error *error)
 {
     size_t texels = (size_t)env->width * (size_t)env->height;
     size_t leaves = count < texels ? count : texels;
-    tree t = { .env = env, .floor = FLOOR_SHARE * mean_luminance(env) };
+    tree t = { .env = env, .floor = FLOOR_SHARE * mean_luminance(env), .report = report };
     pe_status status = pe_cloud_allocate_areas(env, leaves, cloud, error);
 
     if (status != PE_OK)
         return status;
     if (!(t.floor > 0))
         t.floor = 1;
-    t.nodes = malloc(2 * leaves * sizeof *t.nodes);
-    t.heap = malloc(2 * leaves * sizeof *t.heap);
-    if (t.nodes && t.heap) {
-        grow(&t, leaves);
-        cloud->count = 0;
-        cloud->floor = t.floor;
-        harvest(&t, 0, cloud);
-    } else {
+    status = fill(&t, leaves, cloud, error);
+    if (status != PE_OK)
         pe_cloud_free(cloud);
-        status = pe_fail_memory(error, "a tree of lights");
-    }
     free(t.nodes);
     free(t.heap);
     return status;

@@ -238,17 +238,28 @@ static void run_lookups(size_t index, void *data)
     with_lights((trial *)data + index, try_any_normal);
 }
 
-static pe_status run_trials(const trial *model, pe_task *run, int count, int threads, double *estimate, pe_error *error)
+/* What runs them, and who is told. */
+typedef struct how {
+    int threads;
+    pe_report *report;
+} how;
+
+static pe_status run_trials(const trial *model, pe_task *run, int count, const how *h, double *estimate,
+                            pe_error *error)
 {
     trial trials[LOOKUP_FRAMES];
     double error2 = 0, norm2 = 0;
+    pe_status status;
 
     for (int k = 0; k < count; k++) {
         trials[k] = *model;
         trials[k].index = k;
         trials[k].share = 1;
     }
-    pe_parallel_for((size_t)count, threads, run, trials, NULL);
+    status = pe_parallel_for((size_t)count, h->threads, run, trials, h->report);
+    if (status != PE_OK)
+        return status;
+    h->report->done += count;
     for (int k = 0; k < count; k++) {
         if (trials[k].failed)
             return pe_fail_memory(error, "the estimate of the error");
@@ -259,7 +270,7 @@ static pe_status run_trials(const trial *model, pe_task *run, int count, int thr
     return PE_OK;
 }
 
-static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_lobe *lobe, int threads,
+static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_lobe *lobe, const how *h,
                                  pe_error *error)
 {
     trial model = { .cloud = cloud, .lobe = lobe, .maps = maps };
@@ -271,7 +282,7 @@ static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_
             pe_head_on_make(cloud, lobe, maps->info.direction, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), &head_on, error);
     model.head_on = head_on;
     if (status == PE_OK)
-        status = run_trials(&model, run_texels, FRAMES, threads, &maps->info.error_estimate, error);
+        status = run_trials(&model, run_texels, FRAMES, h, &maps->info.error_estimate, error);
     pe_head_on_free(head_on);
     return status;
 }
@@ -296,9 +307,11 @@ static void place_suns(const pe_suns *suns, pe_cloud *cloud)
     }
 }
 
-pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error)
+pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_report *report,
+                             pe_error *error)
 {
     int is_exact = maps->info.accuracy == PE_ACCURACY_EXACT, has_lookups = maps->info.method == PE_METHOD_HEMISPHERES;
+    const how h = { threads, report };
     pe_cloud cloud;
     pe_status status = PE_OK;
 
@@ -308,12 +321,14 @@ pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lo
     if (status != PE_OK)
         return status;
     place_suns(&maps->suns, &cloud);
+    report->done = 0;
+    report->total = (is_exact ? 0 : FRAMES) + (has_lookups ? LOOKUP_FRAMES : 0);
     if (!is_exact)
-        status = estimate_texels(&cloud, maps, lobe, threads, error);
+        status = estimate_texels(&cloud, maps, lobe, &h, error);
     if (status == PE_OK && has_lookups) {
         const trial model = { .cloud = &cloud, .lobe = lobe, .maps = maps };
 
-        status = run_trials(&model, run_lookups, LOOKUP_FRAMES, threads, &maps->info.lookup_error, error);
+        status = run_trials(&model, run_lookups, LOOKUP_FRAMES, &h, &maps->info.lookup_error, error);
     }
     pe_cloud_free(&cloud);
     return status;

@@ -4,11 +4,13 @@
 
 #include "lobe.h"
 #include "maps.h"
+#include "parallel.h"
 
 /* Completes the info of finished maps.  error_estimate, unless they are exact: the relative L2 error of their texels
  * with n.r > 0.15 against [Motegi Eq. 5] over every texel of env, the root of sum |baked - exact|^2 / sum |exact|^2
  * over a fixed, even choice of about two thousand.  lookup_error, of hemispheres: the same of what is looked up for
  * normals anywhere. */
-pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error);
+pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_report *report,
+                             pe_error *error);
 
 #endif

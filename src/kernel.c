@@ -245,10 +245,11 @@ static void set_reach(pe_kernel *k)
     k->reach[1] = is_elliptic ? farthest * ndf->alpha_y / widest : farthest;
 }
 
-pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads, pe_kernel **out,
-                         pe_error *error)
+pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads,
+                         const pe_report *report, pe_kernel **out, pe_error *error)
 {
     pe_kernel *k = calloc(1, sizeof *k);
+    pe_status status = PE_OK;
     int failed = 0;
 
     if (!k)
@@ -259,12 +260,12 @@ pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc 
     set_reach(k);
     k->rows = calloc((size_t)map->height, sizeof *k->rows);
     if (k->rows)
-        pe_parallel_for((size_t)map->height, threads, make_row, k, NULL);
+        status = pe_parallel_for((size_t)map->height, threads, make_row, k, report);
     for (int y = 0; k->rows && y < map->height; y++)
         failed |= k->rows[y].failed;
-    if (!k->rows || failed) {
+    if (!k->rows || failed || status != PE_OK) {
         pe_kernel_free(k);
-        return pe_fail_memory(error, "a kernel");
+        return status != PE_OK ? status : pe_fail_memory(error, "a kernel");
     }
     *out = k;
     return PE_OK;

@@ -9,6 +9,7 @@
 
 #include "disc.h"
 #include "filter.h"
+#include "parallel.h"
 
 typedef struct pe_kernel pe_kernel;
 
@@ -19,8 +20,9 @@ pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted);
  * longer to make than to do without. */
 int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int height);
 
-pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads, pe_kernel **kernel,
-                         pe_error *error);
+/* The report, or NULL, may cancel. */
+pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc *cells, int threads,
+                         const pe_report *report, pe_kernel **kernel, pe_error *error);
 void pe_kernel_free(pe_kernel *kernel); /* NULL is allowed */
 
 /* Normals that are filtered together: in every cell, weight, red, green and blue of each, one after the other. */

@@ -5,7 +5,8 @@
  * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
  * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
- * :lookupError, :suns, :turn (the degrees that the angles divide), and for each sun :sun.00.direction and :sun.00.power. */
+ * :lookupError, :suns, :turn (the degrees that the angles divide), and for each sun :sun.00.direction and
+ * :sun.00.power. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"

@@ -3,8 +3,8 @@
  * In the frame of n_k the direction r is a point of n_k's picture, and the cubic B-spline there takes 4 x 4 texels.  A
  * map whose horizon r is below answers with its horizon's, so that nothing jumps.  Where the brush may point anywhere,
  * its direction at n is carried along to n_k's tangent plane, and the four angles about it are mixed by a cubic that
- * goes round and round in half turns, or whole ones.  Each angle's picture has its own turned frame, so that a narrow lobe lies along
- * its axes. */
+ * goes round and round in half turns, or whole ones.  Each angle's picture has its own turned frame, so that a narrow
+ * lobe lies along its axes. */
 #include "look.h"
 #include "sample.h"
 #include "spline.h"

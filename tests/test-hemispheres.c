@@ -299,7 +299,7 @@ static void test_kernel(pe_ndf_kind kind, double alpha_x, double alpha_y, double
 
     need(pe_lobe_make(&surface, 2, &lobe, NULL) == PE_OK && pe_cloud_from_env(env, &cloud, NULL) == PE_OK, "lobe");
     cells = pe_kernel_cells(lobe, wanted);
-    need(pe_kernel_make(lobe, &by_kernel->disc, &cells, 2, &kernel, NULL) == PE_OK &&
+    need(pe_kernel_make(lobe, &by_kernel->disc, &cells, 2, NULL, &kernel, NULL) == PE_OK &&
              pe_fill_hemispheres_by_kernel(&cloud, lobe, kernel, 2, NULL, by_kernel, NULL) == PE_OK &&
              pe_fill_hemispheres(&cloud, lobe, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), 2, NULL, by_loop, NULL) == PE_OK,
          "fill");
