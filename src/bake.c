@@ -19,31 +19,13 @@
 /* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
 #define AUTO_EXACT_TEXELS_MAX (128 * 64)
 
-/* A part of a bake, of the whole that the caller is told of. */
-typedef struct stage {
-    const pe_bake_options *options;
-    double begin, share;
-} stage;
-
-static int report_stage(double fraction, void *data)
-{
-    const stage *s = data;
-
-    return s->options->progress(s->begin + s->share * fraction, s->options->progress_data);
-}
-
-static pe_report report_on(stage *s)
-{
-    return (pe_report){ s->options->progress ? report_stage : NULL, s, 0, 1 };
-}
-
 /* What one bake shares. */
 typedef struct job {
     const pe_baker *baker;
     const pe_env *fine;          /* what the environment was shrunk from, or itself */
     const pe_bake_errors *known; /* or NULL */
     pe_maps *maps;
-    stage stage;
+    pe_stage stage;
     pe_report report; /* on the stage */
 } job;
 
@@ -55,9 +37,23 @@ static double estimate_share(const pe_baker *b)
 
 static void begin_stage(job *j, double share)
 {
-    j->stage.begin += j->stage.share;
-    j->stage.share = share;
-    j->report = report_on(&j->stage);
+    j->report = pe_stage_begin(&j->stage, share);
+}
+
+/* ---- stages ---- */
+
+static int report_stage(double fraction, void *data)
+{
+    const pe_stage *s = data;
+
+    return s->options->progress(s->begin + s->share * fraction, s->options->progress_data);
+}
+
+pe_report pe_stage_begin(pe_stage *s, double share)
+{
+    s->begin += s->share;
+    s->share = share;
+    return (pe_report){ s->options->progress ? report_stage : NULL, s, 0, 1 };
 }
 
 /* ---- lights ---- */
@@ -335,8 +331,8 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
 {
     const pe_maps_info *info = &b->hemispheres;
     pe_disc map = { info->width, info->height }, cells = pe_kernel_cells(b->lobe, pe_wanted_error(&b->options));
-    stage nothing_done = { &b->options, 0, 0 };
-    pe_report report;
+    pe_stage stage = { &b->options, 0, 0 };
+    pe_report report = pe_stage_begin(&stage, 0);
 
     if (b->info.method == PE_METHOD_REPRESENTATIVE &&
         (double)info->normals * info->width * info->height > HIDDEN_TEXELS_MAX)
@@ -344,7 +340,6 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
     if (b->info.method == PE_METHOD_BASELINE || info->accuracy != PE_ACCURACY_FAST ||
         !pe_kernel_suits(b->lobe, &cells, info->width, info->height))
         return PE_OK;
-    report = report_on(&nothing_done);
     return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &report, &b->kernel, error);
 }
 

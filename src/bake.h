@@ -5,6 +5,7 @@
 #include "kernel.h"
 #include "lobe.h"
 #include "maps.h"
+#include "parallel.h"
 
 struct pe_baker {
     pe_bake_options options;
@@ -13,6 +14,15 @@ struct pe_baker {
     pe_lobe *lobe;
     pe_kernel *kernel; /* NULL: they are filtered light by light */
 };
+
+/* A part of a bake, of the whole that the caller is told of. */
+typedef struct pe_stage {
+    const pe_bake_options *options;
+    double begin, share;
+} pe_stage;
+
+/* The stage after this one, with a share of the whole, and what reports on it. */
+pe_report pe_stage_begin(pe_stage *stage, double share);
 
 /* *shrunk is env with as few texels as the baker's fast maps need, or NULL, where that is env itself. */
 pe_status pe_baker_shrink(const pe_baker *baker, const pe_env *env, pe_env **shrunk, pe_error *error);

@@ -20,7 +20,8 @@ typedef struct frames {
     pe_env *rest[PE_FRAMES_MAX];       /* without suns */
     pe_suns suns[PE_FRAMES_MAX];
     pe_maps **maps;
-    pe_report report;
+    pe_stage stage;
+    pe_report report; /* on the stage */
 } frames;
 
 static const pe_env *env_of(const frames *f, int k)
@@ -88,6 +89,8 @@ static pe_status fill_maps(frames *f, pe_error *error)
     return status;
 }
 
+#define ESTIMATE_SHARE 0.25 /* of the time of a few frames, to look at the errors of one */
+
 static pe_status record_errors(frames *f, const pe_bake_errors *known, pe_error *error)
 {
     pe_bake_errors errors = { 0, 0 };
@@ -96,8 +99,11 @@ static pe_status record_errors(frames *f, const pe_bake_errors *known, pe_error 
         errors = *known;
     } else {
         pe_maps_info *info = &f->maps[0]->info;
-        pe_status status =
-            pe_estimate_errors(env_of(f, 0), f->maps[0], f->baker->lobe, f->baker->options.threads, error);
+        pe_status status;
+
+        f->report = pe_stage_begin(&f->stage, ESTIMATE_SHARE);
+        status =
+            pe_estimate_errors(env_of(f, 0), f->maps[0], f->baker->lobe, f->baker->options.threads, &f->report, error);
 
         if (status != PE_OK)
             return status;
@@ -140,6 +146,7 @@ static pe_status bake_together(frames *f, const pe_bake_errors *known, pe_error 
 {
     pe_status status = make_maps(f, error);
 
+    f->report = pe_stage_begin(&f->stage, known ? 1 : 1 - ESTIMATE_SHARE);
     if (status == PE_OK)
         status = fill_maps(f, error);
     if (status == PE_OK)
@@ -177,9 +184,7 @@ static pe_status check_frames(const pe_baker *b, const pe_env *const *envs, int 
 pe_status pe_baker_bake_frames(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
                                pe_maps **maps, pe_error *error)
 {
-    frames f = {
-        .baker = b, .count = count, .maps = maps, .report = { b->options.progress, b->options.progress_data, 0, 1 }
-    };
+    frames f = { .baker = b, .count = count, .maps = maps, .stage = { &b->options, 0, 0 } };
     pe_status status = check_frames(b, envs, count, error);
 
     if (status != PE_OK)

@@ -547,7 +547,7 @@ static void test_brush_of_table(void)
                                 .height = 36,
                                 .accuracy = PE_ACCURACY_FAST };
     const char *path = "test-hemispheres.turn.exr";
-    pe_maps *fixed = bake(env, &options), *turning, *read;
+    pe_maps *fixed = bake(env, &options), *turning, *read = NULL;
     double error = brush_error(env, fixed, &options.surface, BRUSH_OF_FILE), any;
     pe_error why;
 
