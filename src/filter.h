@@ -5,11 +5,8 @@
 #include "env.h"
 #include "lobe.h"
 #include "prefenv.h"
+#include "surface.h"
 #include "vector.h"
-
-/* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only
- * rounding: texels that lie on the horizon itself, on neither side. */
-#define PE_HORIZON 1e-9
 
 /* Half-open rectangle of texels. */
 typedef struct pe_rect {

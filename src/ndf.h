@@ -30,6 +30,10 @@ void pe_ndf_fineness(const pe_ndf *ndf, double width[2]);
  * Lambda) are seen.  Not of Phong: 0. */
 double pe_ndf_lambda(const pe_ndf *ndf, const double w[3]);
 
+/* h (unit, tangent frame) with density G1(o) max(o.h, 0) D(h) / (o.n) per steradian, o unit and above the surface: of
+ * Beckmann and GGX.  Others: 0, and nothing is drawn. */
+int pe_ndf_sample_visible(const pe_ndf *ndf, const double o[3], double u1, double u2, double h[3]);
+
 /* ---- tables ---- */
 
 enum { PE_NDF_LIMITS = 64 };

@@ -387,6 +387,30 @@ typedef enum pe_horizon {
 void pe_phong(const pe_env *env, double exponent, pe_horizon horizon, const double n[3], const double r[3],
               double rgb[3]);
 
+/* ---- directions: for renderers that trace the reflection ------------------------------------------------------- */
+
+/* A surface point and its viewer, made ready.  For pe_directions_begin to fill; the surface's table must outlive it. */
+typedef struct pe_directions {
+    pe_surface surface;
+    double t[3], b[3], n[3]; /* the tangent frame */
+    double o[3], lambda;     /* the viewer in it, and what of the surface he does not see */
+    double offsets[2];       /* of the points that directions are drawn with */
+} pe_directions;
+
+/* n, o and the brush's direction as for pe_exact.  Directions depend on `seed`, such as the point in the world, and o
+ * alone: evenly spread at each point, unrelated between points, the same in every run. */
+void pe_directions_begin(const pe_surface *surface, const double direction[3], const double n[3], const double o[3],
+                         const double seed[3], pe_directions *directions);
+
+/* Direction k = 0, 1, 2, ...: w, unit, from which the light L(w) comes.  What is reflected is the sum of share L(w),
+ * channel by channel, over the sum of what is returned; visible normals are drawn where that has a formula (Beckmann
+ * and GGX).  Where share is 0 nothing comes from w, which may lie below the surface. */
+double pe_directions_draw(const pe_directions *directions, int k, double w[3], double share[3]);
+
+/* One direction alone: the mean of share L(w) over many points is what is reflected.  With phong or a table, and
+ * PE_WEIGHT_NDF, nearly so: it is one of 32. */
+void pe_directions_one(const pe_directions *directions, double w[3], double share[3]);
+
 /* ---- maps: bake, read, write -------------------------------------------------------------------------------- */
 
 /* What is looked up: the environment filtered once for each representative normal, or once (baseline). */

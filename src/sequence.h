@@ -26,4 +26,10 @@ static inline uint64_t pe_random_bits(uint64_t *state)
     return z ^ (z >> 31);
 }
 
+/* The same as a number in [0, 1). */
+static inline double pe_random_unit(uint64_t *state)
+{
+    return (double)(pe_random_bits(state) >> 11) * 0x1p-53;
+}
+
 #endif

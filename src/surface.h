@@ -4,6 +4,10 @@
 
 #include "prefenv.h"
 
+/* The cosine above which a light is above the horizon, in production and in truth alike.  Below it there is only
+ * rounding: texels that lie on the horizon itself, on neither side. */
+#define PE_HORIZON 1e-9
+
 /* Fresnel's reflectance of unpolarised light by a conductor of index eta + i k, at the cosine of the angle of
  * incidence. 1 where both are 0. */
 double pe_reflectance(double eta, double k, double cosine);

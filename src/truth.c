@@ -6,39 +6,10 @@
 #include "sequence.h"
 #include "surface.h"
 #include "vector.h"
-
-#include <stdint.h>
-#include <string.h>
-
-/* A surface point in the frame of its normal: the viewer o is unit and above the surface. */
-typedef struct view {
-    pe_frame frame;
-    double o[3];   /* tangent coordinates */
-    double lambda; /* of o, for PE_WEIGHT_MICROFACET */
-} view;
-
-static const double plus_y[3] = { 0, 1, 0 };
-
-static void make_view(const pe_surface *surface, const double direction[3], const double n[3], const double o[3],
-                      view *v)
-{
-    double unit_n[3], unit_o[3];
-
-    pe_normalize_any(n, unit_n);
-    pe_normalize_any(o, unit_o);
-    if (pe_dot(unit_n, unit_o) < 0)
-        pe_scale(-1, unit_n, unit_n);
-    pe_frame_make(unit_n, pe_dot(direction, direction) > 0 ? direction : plus_y, &v->frame);
-    pe_frame_coordinates(&v->frame, unit_o, v->o);
-    v->lambda = 0;
-    if (surface->weight == PE_WEIGHT_MICROFACET) {
-        v->o[2] = fmax(v->o[2], PE_HORIZON); /* seen from the horizon itself, Lambda is infinite */
-        v->lambda = pe_ndf_lambda(&surface->ndf, v->o);
-    }
-}
+#include "viewer.h"
 
 /* What a mirror shows: where no texel has weight, the lobe is far narrower than they are. */
-static void mirror(const pe_env *env, const pe_surface *surface, const view *v, double rgb[3])
+static void mirror(const pe_env *env, const pe_surface *surface, const pe_viewer *v, double rgb[3])
 {
     double r[3] = { -v->o[0], -v->o[1], v->o[2] }, world[3];
 
@@ -50,7 +21,7 @@ static void mirror(const pe_env *env, const pe_surface *surface, const view *v, 
 
 /* The weight of the light w, and its reflectance; both in tangent coordinates and above the surface.  D, up to the
  * factor that cancels, and with PE_WEIGHT_MICROFACET times G2. */
-static double lobe_weight(const pe_surface *surface, const view *v, const double w[3], double reflectance[3])
+static double lobe_weight(const pe_surface *surface, const pe_viewer *v, const double w[3], double reflectance[3])
 {
     double h[3] = { v->o[0] + w[0], v->o[1] + w[1], v->o[2] + w[2] }, d;
 
@@ -66,7 +37,7 @@ static double lobe_weight(const pe_surface *surface, const view *v, const double
 }
 
 /* Adds one row of texels to sums: weight, red, green, blue. */
-static void add_row(const pe_env *env, const pe_surface *surface, const view *v, int y, double sums[4])
+static void add_row(const pe_env *env, const pe_surface *surface, const pe_viewer *v, int y, double sums[4])
 {
     const float *texel = env->rgb + 3 * (size_t)y * (size_t)env->width;
 
@@ -91,9 +62,9 @@ void pe_exact(const pe_env *env, const pe_surface *surface, const double directi
               const double o[3], double rgb[3])
 {
     double sums[4] = { 0 };
-    view v;
+    pe_viewer v;
 
-    make_view(surface, direction, n, o, &v);
+    pe_viewer_make(surface, direction, n, o, &v);
     for (int y = 0; y < env->height; y++)
         add_row(env, surface, &v, y, sums);
     if (sums[0] > 0)
@@ -106,34 +77,11 @@ void pe_exact(const pe_env *env, const pe_surface *surface, const double directi
 
 /* ---- Monte Carlo ---- */
 
-static double unit_interval(uint64_t bits)
-{
-    return (double)(bits >> 11) * 0x1p-53;
-}
-
-/* Two offsets in [0, 1) that depend on the view alone. */
-static void view_offsets(const double n[3], const double o[3], double offsets[2])
-{
-    uint64_t state = 0;
-
-    for (int c = 0; c < 3; c++) {
-        uint64_t bits[2];
-
-        memcpy(&bits[0], &n[c], sizeof bits[0]);
-        memcpy(&bits[1], &o[c], sizeof bits[1]);
-        for (int k = 0; k < 2; k++) {
-            state ^= bits[k];
-            state = pe_random_bits(&state);
-        }
-    }
-    offsets[0] = unit_interval(pe_random_bits(&state));
-    offsets[1] = unit_interval(pe_random_bits(&state));
-}
-
 /* A half vector drawn with density D cos(theta_h) sends the viewer's ray to w = reflect(o, h), with density
  * D cos(theta_h) / (4 o.h) per steradian of w.  Eq. 4 weighs w by D, so the sample counts (o.h) / cos(theta_h); and
  * microfacets reflect D G2 F / (4 cos(theta_o)), so it counts G2 F (o.h) / (cos(theta_o) cos(theta_h)). */
-static void add_sample(const pe_env *env, const pe_surface *surface, const view *v, const double h[3], double sums[4])
+static void add_sample(const pe_env *env, const pe_surface *surface, const pe_viewer *v, const double h[3],
+                       double sums[4])
 {
     double w[3], world[3], weight, o_h = pe_dot(v->o, h), reflectance[3] = { 1, 1, 1 };
     const float *texel;
@@ -161,10 +109,10 @@ void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double d
                     const double n[3], const double o[3], double rgb[3])
 {
     double sums[4] = { 0 }, offsets[2];
-    view v;
+    pe_viewer v;
 
-    make_view(surface, direction, n, o, &v);
-    view_offsets(n, o, offsets);
+    pe_viewer_make(surface, direction, n, o, &v);
+    pe_viewer_offsets(n, o, offsets);
     for (int k = 0; k < samples; k++) {
         double u[2], h[3];
 

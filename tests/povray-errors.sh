@@ -45,6 +45,9 @@ wrong 'a second roughness out of range' 'hdr "chart.hdr" roughness 0.1, 7 sample
     'roughness must lie .* but 0.1, 7 was'
 wrong 'samples 0' 'hdr "chart.hdr" roughness 0.1 samples 0' 'samples must be a whole number from 1'
 wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be a whole number .*1.5 was given'
+wrong 'traced without samples' 'hdr "chart.hdr" roughness 0.1 traced' \
+    'traced says that the directions of samples are traced: give their number, such as samples 64'
+wrong 'maps traced' 'exr "maps.exr" traced' 'This file holds maps baked for one roughness: remove .*traced'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
 wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'

@@ -14,6 +14,11 @@
  *       |difference| <= WORST * max(|wanted|, 1/100 of the largest wanted) everywhere, and <= MEAN times that in the
  *       mean.  Says how far it was.
  *
+ *   sphere_rays noise DISTANCE IMAGE...
+ *       Reads the same and compares it with the mean of pictures, three or more, that differ by noise alone: t, the
+ *       difference over its standard error, which the pictures tell, for each pixel and channel.  Exit status 0 if the
+ *       mean of t and that of t^2 are what chance makes of them, within four standard deviations.
+ *
  *   sphere_rays chart WIDTH HEIGHT [SUN]
  *       Writes an environment to standard output, as Radiance HDR: smooth, but for a sun that is 2^SUN times as bright
  *       (3 by default, 0 for none).
@@ -154,6 +159,78 @@ static int check(const char *path, double distance, double worst_allowed, double
     return status;
 }
 
+/* What the pictures say of one number: t of their mean. */
+static double t_of(const pe_image *images, int count, size_t at, double wanted)
+{
+    double sum = 0, squares = 0;
+
+    for (int i = 0; i < count; i++)
+        sum += images[i].rgb[at];
+    for (int i = 0; i < count; i++)
+        squares += (images[i].rgb[at] - sum / count) * (images[i].rgb[at] - sum / count);
+    return (sum / count - wanted) / sqrt(fmax(squares, 1e-30) / (count - 1) / count);
+}
+
+/* Student's t with `count` - 1 degrees of freedom: the bounds of the means of t and t^2 over `pixels`; a channel is
+ * looked at by itself, for the three go together. */
+static int compare_noise(const pe_image *images, int count, double distance, const double *wanted, size_t pixels)
+{
+    const double nu = count - 1, square = nu / (nu - 2);
+    const double spread = nu > 4 ? square * sqrt(2 * (nu - 1) / (nu - 4)) : 3 * square;
+    const double bound = 4 * sqrt(square / (double)pixels), bound_2 = square + 4 * spread / sqrt((double)pixels);
+    double mean[3] = { 0 }, mean_2[3] = { 0 };
+    size_t k = 0;
+    int failed = 0;
+
+    for (int y = 0; y < images->height; y++)
+        for (int x = 0; x < images->width; x++) {
+            double n[3], o[3];
+
+            if (!hit(images->width, distance, x, y, n, o) || k++ >= pixels)
+                continue;
+            for (size_t i = 0; i < 3; i++) {
+                const size_t at = 3 * ((size_t)y * (size_t)images->width + (size_t)x) + i;
+                const double t = t_of(images, count, at, wanted[3 * (k - 1) + i]);
+
+                mean[i] += t / (double)pixels;
+                mean_2[i] += t * t / (double)pixels;
+            }
+        }
+    if (k != pixels || k == 0) {
+        fprintf(stderr, "the sphere is seen in %zu pixels, but %zu colours were given\n", k, pixels);
+        return 2;
+    }
+    for (int i = 0; i < 3; i++) {
+        failed |= !(fabs(mean[i]) <= bound && mean_2[i] <= bound_2);
+        printf("%zu pixels, %d pictures, channel %d: mean t %.3f, at most %.3f; mean t^2 %.3f, at most %.3f\n", k,
+               count, i, mean[i], bound, mean_2[i], bound_2);
+    }
+    return failed;
+}
+
+enum { PICTURES = 64 };
+
+static int check_noise(int count, char **paths, double distance)
+{
+    pe_image images[PICTURES];
+    pe_error error;
+    size_t pixels;
+    int read = 0, status = 2;
+
+    for (; read < count; read++)
+        if (pe_image_read(paths[read], &images[read], &error) != PE_OK) {
+            fprintf(stderr, "%s\n", error.message);
+            break;
+        }
+    double *wanted = read_colours(&pixels);
+    if (read == count)
+        status = compare_noise(images, count, distance, wanted, wanted ? pixels : 0);
+    free(wanted);
+    while (read > 0)
+        pe_image_free(&images[--read]);
+    return status;
+}
+
 static int write_chart(int width, int height, int sun)
 {
     printf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height, width);
@@ -184,6 +261,8 @@ int main(int argc, char **argv)
         return print_rays(atoi(argv[2]), atof(argv[3]), camera, environment);
     if ((argc == 5 || argc == 6) && !strcmp(argv[1], "check"))
         return check(argv[2], atof(argv[3]), atof(argv[4]), atof(argv[argc - 1]));
+    if (argc >= 6 && argc <= 3 + PICTURES && !strcmp(argv[1], "noise"))
+        return check_noise(argc - 3, argv + 3, atof(argv[2]));
     if ((argc == 4 || argc == 5) && !strcmp(argv[1], "chart"))
         return write_chart(atoi(argv[2]), atoi(argv[3]), argc == 5 ? atoi(argv[4]) : 3);
     fprintf(stderr, "usage: see the head of sphere_rays.c\n");

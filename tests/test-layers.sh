@@ -7,8 +7,8 @@
 # with: image_png.c to image.  prefenv.h is the house, and open to all.
 rooms=(
     status vector lanes sequence parallel file image/exr env/shrink ndf heights slopes geodesic disc/spline/atlas
-    surface lobe filter cluster/tiles strip kernel denominator suns truth/phong maps look baseline/hemispheres/pairs
-    sample estimate choose bake cli
+    surface viewer directions lobe filter cluster/tiles strip kernel denominator suns truth/phong maps look
+    baseline/hemispheres/pairs sample estimate choose bake cli
 )
 
 declare -A place

@@ -1,5 +1,5 @@
 #!/bin/bash
-# peer_check.sh - `make peer-check`: our pictures against Mitsuba 3's, by peer.py, some five minutes.
+# peer_check.sh - `make peer-check`: our pictures against Mitsuba 3's, by peer.py and bunny.py, some six minutes.
 #
 # Mitsuba comes from the Python package index into a virtual environment of its own in the cache, once; it is no part of
 # `make check`.  The table, table.md and table.json, and the pictures of Fig. 7 are written into peer/ of the build
@@ -41,5 +41,9 @@ renderer=()
 status=0
 "$python" "$srcdir/tests/peer/peer.py" --prefenv "$PREFENV" --environment "$hdri" --output "$top_builddir/peer" \
     "${renderer[@]}" "$@" || status=$?
+if [ -n "${POVRAY_PREFENV:-}" ]; then
+    "$python" "$srcdir/tests/peer/bunny.py" --povray "$POVRAY_PREFENV" --environment "$hdri" \
+        --mesh "$PREFENV_DATA/bunny.obj" --output "$top_builddir/peer" || status=$?
+fi
 [ ! -f "$top_builddir/peer/table.md" ] || cat "$top_builddir/peer/table.md"
 exit $status
