@@ -103,6 +103,23 @@ head -n $exact_lines lines.txt | "$PREFENV" exact "$hdri" --alpha 0.1 >exact.txt
 exact_rate=$(ratio $exact_lines "$(seconds_since "$start" 4)")
 result 'prefenv eval' "$eval_rate" 'lines/s' 'prefenv exact' "$exact_rate" "$(ratio "$eval_rate" "$exact_rate")"
 
+# A frame of a sequence of 20, the baker's making and the estimate of errors included, against a bake alone.
+echo 'sequences ...' >&2
+for ((k = 1; k <= 20; k++)); do
+    ln -s "$hdri" frame_$k.exr
+done
+for settings in '' --paper; do
+    # shellcheck disable=SC2086 # none or one word
+    timed 3 "$PREFENV" bake "$hdri" -o alone.exr --quiet $settings
+    theirs=$cpu_seconds
+    # shellcheck disable=SC2086
+    timed 2 "$PREFENV" bake frame_%d.exr -o frame_%d.pe.exr --frames 1-20 --force --quiet $settings
+    ours=$(ratio "$cpu_seconds" 20)
+    result "a frame of a sequence${settings:+, $settings}" "$ours" 'CPU s' 'a bake alone' "$theirs" \
+        "$(ratio "$theirs" "$ours")"
+done
+rm -f frame_*
+
 # ---- rivals: an isotropic map seen head on, and no bake at all ----
 
 # Each is compared with the exact sum of its own definition.  cmgen reads fewer kinds of EXR than prefenv does.

@@ -82,7 +82,8 @@ static pe_status fill_maps(frames *f, pe_error *error)
     if (b->info.method == PE_METHOD_HEMISPHERES)
         status = pe_fill_hemispheres_of_strip(&strip, b->kernel, b->options.threads, &f->report, f->maps, error);
     else
-        status = pe_fill_pairs_of_strip(&strip, b->kernel, f->suns, b->options.threads, &f->report, f->maps, error);
+        status =
+            pe_fill_pairs_of_strip(&strip, b->kernel, b->lobe, f->suns, b->options.threads, &f->report, f->maps, error);
     pe_strip_free(&strip);
     for (int k = 0; k < f->count && status == PE_OK; k++)
         status = pe_maps_finish(f->maps[k], b->options.threads, error);

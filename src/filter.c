@@ -531,6 +531,41 @@ void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float 
     points_functions[surface->weight][surface->ndf.kind](lobe, lights, o, lambda_o, count, sums);
 }
 
+INLINE void all_densities(pe_ndf_kind kind, const pe_lobe *l, const float w[3], const float *const o[3], size_t count,
+                          float *densities)
+{
+    for (size_t k = 0; k < count; k += LANES) {
+        half h = { load(o[0] + k) + w[0], load(o[1] + k) + w[1], load(o[2] + k) + w[2] };
+        floats d;
+
+        density(kind, l, &h, &d);
+        memcpy(densities + k, &d, sizeof d);
+    }
+}
+
+typedef void densities_function(const pe_lobe *l, const float w[3], const float *const o[3], size_t count,
+                                float *densities);
+
+#define DENSITIES(name, kind) \
+    CLONES static void name(const pe_lobe *l, const float w[3], const float *const o[3], size_t count, \
+                            float *densities) \
+    { \
+        all_densities(kind, l, w, o, count, densities); \
+    }
+
+DENSITIES(beckmann_densities, PE_NDF_BECKMANN)
+DENSITIES(ggx_densities, PE_NDF_GGX)
+DENSITIES(phong_densities, PE_NDF_PHONG)
+DENSITIES(table_densities, PE_NDF_TABLE)
+
+void pe_filter_densities(const pe_lobe *lobe, const float w[3], const float *const o[3], size_t count, float *densities)
+{
+    static densities_function *const functions[4] = { beckmann_densities, ggx_densities, phong_densities,
+                                                      table_densities };
+
+    functions[lobe->surface.ndf.kind](lobe, w, o, count, densities);
+}
+
 void pe_mirror_viewer(const pe_frame *frame, const double world[3], float o[3])
 {
     double w[3];

@@ -70,6 +70,11 @@ void pe_light_at(const pe_lights *lights, size_t light, float direction[3], floa
 void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float (*o)[3], size_t count,
                       double (*sums)[4]);
 
+/* The other way round, one light w and many viewers: D(h) of each of `count` viewers, whose x, y and z stand in arrays
+ * with room for a multiple of 16, as has `densities`.  Of closed forms times pi alpha_x alpha_y. */
+void pe_filter_densities(const pe_lobe *lobe, const float w[3], const float *const o[3], size_t count,
+                         float *densities);
+
 #define PE_FILTER_POINTS_MAX 64 /* most points in one call */
 
 /* The viewer who sees the direction `world` in a mirror of the frame's normal: with world = (x, y, z) in the frame,

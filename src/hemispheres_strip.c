@@ -63,7 +63,7 @@ void pe_strip_radiance(const pe_strip *strip, const pe_frame *frame, const float
     }
     for (int k = 0; k < PE_STRIP_FRAMES; k++)
         for (int c = 0; c < 3; c++)
-            rgb[k][c] = fmaxf(scale * sums[3 * k + c], 0);
+            rgb[k][c] = sums[3 * k + c] > 0 ? scale * sums[3 * k + c] : 0;
 }
 
 /* ---- all ---- */

@@ -20,9 +20,9 @@ static inline pe_quad pe_look_load(const float *texel)
 }
 
 /* Beside a lamp narrower than its texels a spline swings below zero, which needs a coefficient below zero.  There a
- * lookup `sum` at the taps t, the first of which is at `corner` in rows `stride` floats apart, is not left lower than
- * a lookup can be: than the least texel about, or a quarter of the bilinear lookup. */
-pe_quad pe_look_beside_lamp(const float *corner, int stride, const pe_disc_taps *t, pe_quad sum);
+ * lookup `sum` at the taps t, the first of which is at `corner`, `step` floats from the next and `stride` from the one
+ * below, is not left lower than a lookup can be: than the least texel about, or a quarter of the bilinear lookup. */
+pe_quad pe_look_beside_lamp(const float *corner, int step, int stride, const pe_disc_taps *t, pe_quad sum);
 
 /* What image k of hemispheres shows in the direction `local` of its frame, unit; below the horizon: what the horizon
  * shows.  Red, green, blue, and a fourth value without meaning. */
@@ -42,7 +42,7 @@ static inline pe_quad pe_look(const pe_maps *maps, int image, const float local[
         sum += t.down[j] * (t.across[0] * a + t.across[1] * b + t.across[2] * c + t.across[3] * d);
         signs |= (pe_quad_bits)a | (pe_quad_bits)b | (pe_quad_bits)c | (pe_quad_bits)d;
     }
-    return (signs[0] | signs[1] | signs[2]) < 0 ? pe_look_beside_lamp(corner, stride, &t, sum) : sum;
+    return (signs[0] | signs[1] | signs[2]) < 0 ? pe_look_beside_lamp(corner, 3, stride, &t, sum) : sum;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include "pairs_strip.h"
 
 #include "lanes.h"
+#include "look.h"
 #include "spline.h"
 #include "status.h"
 
@@ -13,6 +14,7 @@ typedef struct job {
     const pe_strip *strip;
     const pe_kernel *kernel;
     pe_disc disc; /* of the hemispheres */
+    const pe_lobe *lobe;
     const pe_suns *suns;
     pe_denominator *denominator; /* NULL where no frame has suns */
     pe_maps *const *maps;
@@ -34,9 +36,11 @@ static void store(int place, const float o[3], const float (*sums)[PE_STRIP_LANE
 
     for (int side = 0; side < 2; side++) {
         float rgb[PE_STRIP_FRAMES][3] = { { 0 } };
+        float *lanes = i->sides[side] + (size_t)PE_STRIP_LANES * (size_t)place;
 
         pe_strip_radiance(i->job->strip, &i->frames[side], o, sums[side], rgb);
-        memcpy(i->sides[side] + (size_t)PE_STRIP_LANES * (size_t)place, rgb, sizeof rgb);
+        memcpy(lanes, rgb, sizeof rgb);
+        lanes[PE_STRIP_WEIGHT] = 0;
     }
 }
 
@@ -58,63 +62,195 @@ static int filter_sides(image *i)
 
 /* ---- look up ---- */
 
-CLONES static void look(const float *corner, int width, const pe_disc_taps *t, float lanes[LANES])
+/* A row's texels on one side: where in the row, the viewers who see them in a mirror, what the spline shows. */
+typedef struct side_row {
+    int count, *column;
+    float *o[3], *weight, *lanes, *densities; /* weight: Eq. 5's denominator, where there are suns */
+} side_row;
+
+/* Whether a spline's coefficients about a lookup have any below zero; see pe_look_beside_lamp. */
+INLINE int any_negative(const ints *signs)
+{
+    int lanes[LANES], sign = 0;
+
+    memcpy(lanes, signs, sizeof lanes);
+    for (int k = 0; k < LANES; k++)
+        sign |= lanes[k];
+    return sign < 0;
+}
+
+CLONES static int look(const float *corner, int width, const pe_disc_taps *t, float lanes[LANES])
 {
     floats sum = { 0 };
+    ints signs = { 0 };
 
-    for (int j = 0; j < 4; j++, corner += LANES * width)
-        sum += t->down[j] * (t->across[0] * load(corner) + t->across[1] * load(corner + LANES) +
-                             t->across[2] * load(corner + 2 * LANES) + t->across[3] * load(corner + 3 * LANES));
+    for (int j = 0; j < 4; j++, corner += LANES * width) {
+        floats a = load(corner), b = load(corner + LANES), c = load(corner + 2 * LANES), d = load(corner + 3 * LANES);
+
+        sum += t->down[j] * (t->across[0] * a + t->across[1] * b + t->across[2] * c + t->across[3] * d);
+        signs |= (ints)a | (ints)b | (ints)c | (ints)d;
+    }
     memcpy(lanes, &sum, sizeof sum);
+    return any_negative(&signs);
 }
 
-static void look_at(const image *i, int side, const double world[3], float lanes[LANES])
+/* Four lanes at a time. */
+static void look_beside_lamp(const float *corner, int width, const pe_disc_taps *t, float lanes[LANES])
+{
+    for (int k = 0; k < LANES; k += 4) {
+        pe_quad sum = pe_look_load(lanes + k);
+
+        sum = pe_look_beside_lamp(corner + k, LANES, LANES * width, t, sum);
+        memcpy(lanes + k, &sum, sizeof sum);
+    }
+}
+
+static void look_at(const image *i, int side, const float local[3], float lanes[LANES])
 {
     const pe_disc *disc = &i->job->disc;
-    float toward[3];
-    double local[3];
+    const float *corner;
     pe_disc_taps t;
 
-    pe_frame_coordinates(&i->frames[side], world, local);
-    for (int c = 0; c < 3; c++)
-        toward[c] = (float)local[c];
-    pe_disc_taps_at(disc, toward, &t);
-    look(i->sides[side] + (size_t)LANES * (size_t)((t.y - 1) * disc->width + t.x - 1), disc->width, &t, lanes);
+    pe_disc_taps_at(disc, local, &t);
+    corner = i->sides[side] + (size_t)LANES * (size_t)((t.y - 1) * disc->width + t.x - 1);
+    if (look(corner, disc->width, &t, lanes))
+        look_beside_lamp(corner, disc->width, &t, lanes);
 }
 
-static void add_suns(const image *i, int side, int frame, const double world[3], const float shown[3], float *out)
+static float weight_at(const pe_denominator *denominator, const double mirror[3])
 {
-    const job *j = i->job;
-    const pe_maps_info *info = &j->maps[frame]->info;
-    double o[3], rgb[3];
+    const double o[3] = { -mirror[0], -mirror[1], fmax(mirror[2], PE_HORIZON) };
 
-    for (int c = 0; c < 3; c++)
-        rgb[c] = fmax((double)shown[c], 0);
-    if (j->suns[frame].count) {
-        pe_reflect(world, i->frames[side].n, o);
-        pe_suns_add(&j->suns[frame], &info->surface, j->denominator, info->direction, i->frames[side].n, o, rgb);
-    }
-    for (int c = 0; c < 3; c++)
-        out[c] = (float)rgb[c];
+    return (float)pe_denominator_at(denominator, o);
 }
 
-static void look_up_image(const image *i, int index)
+static void look_up_row(const image *i, int y, side_row sides[2])
 {
-    const pe_maps *first = i->job->maps[0];
-    int width = first->info.width, texels = width * first->info.height;
+    const pe_grid *grid = &i->job->maps[0]->grid;
+    int count[2] = { 0, 0 };
 
-    for (int texel = 0; texel < texels; texel++) {
-        float lanes[LANES];
-        double world[3];
-        int side;
+    for (int x = 0; x < grid->width; x++) {
+        double world[3], local[3];
+        float toward[3];
+        const side_row *r;
+        int side, k;
 
-        pe_grid_direction(&first->grid, texel % width, texel / width, world);
+        pe_grid_direction(grid, x, y, world);
         side = !(pe_dot(world, i->frames[0].n) > 0);
-        look_at(i, side, world, lanes);
-        for (int k = 0; k < i->job->strip->count; k++)
-            add_suns(i, side, k, world, lanes + 3 * k,
-                     pe_maps_image_to_fill(i->job->maps[k], index) + (size_t)3 * (size_t)texel);
+        r = &sides[side];
+        k = count[side]++;
+        pe_frame_coordinates(&i->frames[side], world, local);
+        for (int c = 0; c < 3; c++) {
+            toward[c] = (float)local[c];
+            r->o[c][k] = c < 2 ? -toward[c] : toward[c];
+        }
+        look_at(i, side, toward, r->lanes + (size_t)LANES * (size_t)k);
+        if (i->job->denominator)
+            r->weight[k] = weight_at(i->job->denominator, local);
+        r->column[k] = x;
     }
+    for (int side = 0; side < 2; side++)
+        sides[side].count = count[side];
+}
+
+/* ---- suns ---- */
+
+static void add_sun(const float power[3], const side_row *r, float *row)
+{
+    for (int k = 0; k < r->count; k++) {
+        float share = r->densities[k] / r->weight[k];
+
+        for (int c = 0; c < 3; c++)
+            row[3 * r->column[k] + c] += share * power[c];
+    }
+}
+
+static void add_suns(const image *i, const pe_suns *suns, const pe_frame *frame, const side_row *r, float *row)
+{
+    const pe_lobe *lobe = i->job->lobe;
+    const double unit = 1 / (M_PI * lobe->surface.ndf.alpha_x * lobe->surface.ndf.alpha_y);
+    const float *const o[3] = { r->o[0], r->o[1], r->o[2] };
+
+    for (int k = 0; k < suns->count; k++) {
+        double local[3];
+        float w[3], power[3];
+
+        pe_frame_coordinates(frame, suns->direction[k], local);
+        if (!(local[2] > PE_HORIZON))
+            continue;
+        for (int c = 0; c < 3; c++) {
+            w[c] = (float)local[c];
+            power[c] = (float)(unit * suns->power[k][c]);
+        }
+        pe_filter_densities(lobe, w, o, (size_t)r->count, r->densities);
+        add_sun(power, r, row);
+    }
+}
+
+static float positive(float value)
+{
+    return value > 0 ? value : 0;
+}
+
+static void store_frame(const image *i, int frame, const side_row sides[2], float *row)
+{
+    for (int side = 0; side < 2; side++) {
+        const side_row *r = &sides[side];
+
+        for (int k = 0; k < r->count; k++)
+            for (int c = 0; c < 3; c++)
+                row[3 * r->column[k] + c] = positive(r->lanes[LANES * (size_t)k + (size_t)(3 * frame + c)]);
+        add_suns(i, &i->job->suns[frame], &i->frames[side], r, row);
+    }
+}
+
+/* ---- an image ---- */
+
+static int allocate_row(int width, side_row *r)
+{
+    size_t room = ((size_t)width + LANES - 1) / LANES * LANES;
+    float *values = calloc(room * (5 + LANES), sizeof *values);
+
+    *r = (side_row){ .column = malloc(room * sizeof *r->column), .lanes = values };
+    if (!r->column || !values)
+        return 0;
+    r->densities = values + room * LANES;
+    r->weight = values + room * (LANES + 4);
+    for (int c = 0; c < 3; c++)
+        r->o[c] = values + room * (LANES + 1 + (size_t)c);
+    return 1;
+}
+
+static void free_row(side_row *r)
+{
+    free(r->column);
+    free(r->lanes);
+}
+
+static void look_up_rows(const image *i, int index, side_row sides[2])
+{
+    const pe_maps_info *info = &i->job->maps[0]->info;
+
+    for (int y = 0; y < info->height; y++) {
+        look_up_row(i, y, sides);
+        for (int k = 0; k < i->job->strip->count; k++)
+            store_frame(i, k, sides,
+                        pe_maps_image_to_fill(i->job->maps[k], index) + (size_t)3 * (size_t)(y * info->width));
+    }
+}
+
+static int look_up_image(const image *i, int index)
+{
+    int width = i->job->maps[0]->info.width, enough;
+    side_row sides[2];
+
+    enough = allocate_row(width, &sides[0]);
+    enough &= allocate_row(width, &sides[1]);
+    if (enough)
+        look_up_rows(i, index, sides);
+    free_row(&sides[0]);
+    free_row(&sides[1]);
+    return enough;
 }
 
 /* ---- all ---- */
@@ -132,9 +268,7 @@ static void fill_image(size_t index, void *data)
     for (int side = 0; side < 2; side++)
         pe_frame_make(pe_geodesic_vertex(j->maps[0]->geodesic, 2 * (int)index + side), j->maps[0]->info.direction,
                       &i.frames[side]);
-    j->failed[index] = !i.sides[0] || !i.sides[1] || !filter_sides(&i);
-    if (!j->failed[index])
-        look_up_image(&i, (int)index);
+    j->failed[index] = !i.sides[0] || !i.sides[1] || !filter_sides(&i) || !look_up_image(&i, (int)index);
     free(i.sides[0]);
     free(i.sides[1]);
 }
@@ -161,18 +295,19 @@ static pe_status fill_images(job *j, int threads, pe_report *report, pe_error *e
     return status;
 }
 
-pe_status pe_fill_pairs_of_strip(const pe_strip *strip, const pe_kernel *kernel, const pe_suns *suns, int threads,
-                                 pe_report *report, pe_maps *const *maps, pe_error *error)
+pe_status pe_fill_pairs_of_strip(const pe_strip *strip, const pe_kernel *kernel, const pe_lobe *lobe,
+                                 const pe_suns *suns, int threads, pe_report *report, pe_maps *const *maps,
+                                 pe_error *error)
 {
-    job j = { strip, kernel, *pe_kernel_map(kernel), suns, NULL, maps, calloc((size_t)maps[0]->info.images, 1) };
+    job j = { strip, kernel, *pe_kernel_map(kernel), lobe, suns, NULL, maps, NULL };
     pe_status status = PE_OK;
 
-    if (!j.failed)
-        return pe_fail_memory(error, "a table of images");
     if (any_suns(strip, suns))
-        status = pe_denominator_make(&maps[0]->info.surface.ndf, &j.denominator, error);
-    if (status == PE_OK)
-        status = fill_images(&j, threads, report, error);
+        status = pe_denominator_make(&lobe->surface.ndf, &j.denominator, error);
+    if (status != PE_OK)
+        return status;
+    j.failed = calloc((size_t)maps[0]->info.images, sizeof *j.failed);
+    status = j.failed ? fill_images(&j, threads, report, error) : pe_fail_memory(error, "a table of images");
     pe_denominator_free(j.denominator);
     free(j.failed);
     return status;

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 
 /* Of so many bakes of several frames, one has its errors estimated, which takes longer than the bake. */
-#define ESTIMATE_EVERY 4
+#define ESTIMATE_EVERY 8
 
 static int draw_progress(double fraction, void *data)
 {
