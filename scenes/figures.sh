@@ -69,25 +69,27 @@ exr fig7a fig7a.pov $side $side -A Declare=Samples=$samples
 exr fig7b fig7b.pov $side $side -A
 exr fig7c fig7c.pov $side $side -A
 
-# A scene that bakes by itself; as a picture only.
-gallery()
+# baking NAME WIDTH HEIGHT: a scene that bakes by itself; as a picture only.
+baking()
 {
-    local scene=$scenes/gallery.pov options='+W1200 +H800 +A0.1 -J +Lwork' command
+    local name=$1 scene=$scenes/$1.pov options="+W$2 +H$3 +A0.1 -J +Lwork" command
 
-    command="$POVRAY_PREFENV +I$scene +O$figures/gallery.png $options"
-    if newer gallery.png "$scene" "$scenes/include/prefenv.inc" "$POVRAY_PREFENV" work/environment.exr &&
-        same "$command" gallery.txt; then
-        say gallery 'up to date'
+    command="$POVRAY_PREFENV +I$scene +O$figures/$name.png $options"
+    if newer "$name.png" "$scene" "$scenes/include/prefenv.inc" "$POVRAY_PREFENV" "$hdri" &&
+        same "$command" "$name.txt"; then
+        say "$name" 'up to date'
         return
     fi
     # shellcheck disable=SC2086 # a list of words
-    render work/gallery.log "$scene" work/gallery.part.png $options
-    mv work/gallery.part.png gallery.png
-    echo "$command" >gallery.txt
-    say gallery "baked and traced; tracing took $trace_seconds s"
+    render "work/$name.log" "$scene" "work/$name.part.png" $options
+    mv "work/$name.part.png" "$name.png"
+    echo "$command" >"$name.txt"
+    say "$name" "baked and traced; tracing took $trace_seconds s"
 }
 
-gallery
+baking gallery 1200 800
+ln -sf "$PREFENV_DATA/hdri/studio.exr" work/studio.exr
+baking turned 900 600
 
 # ---- the table ----
 
@@ -244,7 +246,7 @@ END
 sheet fig4 fig6d.png fig4b.png fig6e.png
 sheet fig6 fig6b.png fig6c.png fig6d.png fig6e.png fig6f.png work/fig6_numbers.inc
 sheet fig7 fig7a.png fig7b.png fig7c.png work/fig7_numbers.inc
-sheet readme fig6b.png fig6e.png work/fig6_numbers.inc
+sheet readme fig6b.png fig6f.png work/fig6_numbers.inc
 
 echo
 cat table.md

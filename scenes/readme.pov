@@ -7,4 +7,4 @@
 #ifndef (Side) #declare Side = 360; #end
 #include "panels.inc"
 Panel(0, "fig6b.png", "Monte Carlo", concat(str(Reference_Samples, 0, 0), " samples at every pixel"))
-Panel(1, "fig6e.png", "prefiltered", "42 normals, a = 50")
+Panel(1, "fig6f.png", "prefiltered", "one lookup at every pixel")

@@ -8,7 +8,7 @@
 #   small_bound NAME   the greatest RMSE, in linear values, that NAME.png may be away from its reference
 
 small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f fig7_mask fig7a fig7b fig7c ten_lines
-    cylinder spheres gallery teapot fig4 fig6 fig7 readme surfaces view
+    cylinder spheres gallery turned teapot fig4 fig6 fig7 readme surfaces view
     street teapot8 contact teapot6a teapot6b'
 
 small_prepare()
@@ -75,7 +75,7 @@ small_render()
         fig5a) size='+W160 +H80 -A' ;;
         fig5b | fig5c) size='+W160 +H133 +A0.1 -J' ;;
         fig6b | fig7a) size="$size Declare=Samples=1024" ;;
-        gallery) size='+W192 +H128 +A0.1 -J' ;;
+        gallery | turned) size='+W192 +H128 +A0.1 -J' ;;
         ten_lines) size='+W160 +H120 -A' ;;
         spheres) size='+W240 +H60 -A' ;;
         fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
@@ -98,11 +98,11 @@ small_render()
             small_bake street_001.exr street_001.pe.exr --normals 42 --size 32x32
             ;;
         teapot8) small_frame teapot8 png '+W128 +H96 -A' ;;
-        gallery)
-            # It bakes by itself; of a smaller environment, so that it takes seconds.
-            mkdir -p gallery
-            render gallery.log "$srcdir/scenes/fig5a.pov" gallery/environment.exr +W128 +H64 -A +L.
-            (cd gallery && render gallery.log "$srcdir/scenes/gallery.pov" ../gallery.png $size)
+        gallery | turned)
+            # They bake by themselves; of a smaller environment, so that it takes seconds.
+            mkdir -p "$1"
+            render "$1.log" "$srcdir/scenes/fig5a.pov" "$1/environment.exr" +W128 +H64 -A +L.
+            (cd "$1" && ln -sf environment.exr studio.exr && render "$1.log" "$srcdir/scenes/$1.pov" "../$1.png" $size)
             ;;
         *) render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L. ;;
     esac
@@ -114,7 +114,7 @@ small_bound()
 {
     case $1 in
         fig6b | fig7a) echo 0.02 ;;
-        fig6 | fig7 | readme | gallery) echo 0.005 ;;
+        fig6 | fig7 | readme | gallery | turned) echo 0.005 ;;
         *) echo 0.002 ;;
     esac
 }

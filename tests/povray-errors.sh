@@ -57,6 +57,11 @@ wrong 'a pattern without a direction' 'exr "maps.exr" pattern { bozo }' 'uv_mapp
 wrong 'no axis' 'hdr "chart.hdr" roughness 0.1 direction rotate 0' 'direction must not be <0, 0, 0>'
 wrong 'no metal' 'hdr "chart.hdr" roughness 0.1 metallic "gould"' \
     "'gould' is not a metal that is known here: write one of aluminium, .*titanium"
+wrong 'a metal without quotes' 'hdr "chart.hdr" roughness 0.1 metallic copper' \
+    'metallic takes the name of a metal in quotes: write metallic "copper"'
+wrong 'alpha' 'hdr "chart.hdr" alpha 0.1' 'alpha, .* is called roughness here: write roughness 0.1'
+wrong 'a word of something else' 'hdr "chart.hdr" roughness 0.1 ambient 0.1' \
+    'Expected .*method, exponent, .* or \}.*, ambient found instead'
 wrong 'an index of nothing' 'hdr "chart.hdr" roughness 0.1 ior 0.1, 0.1' \
     'the index of refraction 0.1 .* is no conductor'
 wrong 'type 4' 'hdr "chart.hdr" roughness 0.1 type 4' 'type must be 1 \(Beckmann\), 2 .*but 4 was given'
