@@ -32,6 +32,16 @@ struct pe_maps {
     pe_denominator *denominator;        /* NULL where there are no suns */
 };
 
+/* As files and people call them: by pe_method, whose default has none, and by pe_ndf_kind. */
+#define PE_METHOD_NAMES \
+    { \
+        "", "hemispheres", "representative", "baseline" \
+    }
+#define PE_NDF_NAMES \
+    { \
+        "beckmann", "ggx", "phong", "table" \
+    }
+
 /* Checks info's method, surface, direction, normals, angles and size; completes frequency and images. */
 pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error);
 

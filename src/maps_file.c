@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const method_names[] = { "", "hemispheres", "representative", "baseline" };
+static const char *const method_names[] = PE_METHOD_NAMES;
 static const char *const accuracy_names[] = { "auto", "exact", "fast" };
 static const char *const weight_names[] = { "ndf", "microfacet" };
-static const char *const ndf_names[] = { "beckmann", "ggx", "phong", "table" };
+static const char *const ndf_names[] = PE_NDF_NAMES;
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32

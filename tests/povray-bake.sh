@@ -77,8 +77,8 @@ is "$(find . -newer spheres.pov -type f ! -name samples.exr)" '' 'nothing but th
 
 # ---- interrupted ----
 
-# So many texels, a narrow lobe and what no kernel can do: a bake of many seconds, interrupted when it first says how far
-# it is.
+# So many texels, a narrow lobe and what no kernel can do: a bake of many seconds, interrupted when it first says how
+# far it is.
 chart large.hdr 2048 1024
 spheres 'hdr "large.hdr" roughness 0.02 metallic "gold"'
 "$POVRAY_PREFENV" +Ispheres.pov -D +W8 +H8 +Ointerrupted.png >interrupted.log 2>&1 &
@@ -92,7 +92,8 @@ start=$(date +%s%N)
 wait $renderer
 status=$?
 took=$((($(date +%s%N) - start) / 1000000))
-like "$(grep -o 'prefiltered_environment: [0-9]* % ...' interrupted.log)" '^prefiltered_environment: [0-9]{1,2} % \.\.\.$' \
+like "$(grep -o 'prefiltered_environment: [0-9]* % ...' interrupted.log)" \
+    '^prefiltered_environment: [0-9]{1,2} % \.\.\.$' \
     'after two seconds a bake says how far it is'
 fails 'an interruption ends a bake' [ "$status" -eq 0 ]
 ok '... within five seconds' [ $took -lt 5000 ] || note "$took ms"

@@ -7,6 +7,7 @@
  *
  * On real HDRIs where the data is at hand (PREFENV_DATA), averaged down to 256 x 128 so that the truth is quick.  The
  * paper's: 42 normals in pairs of 400 x 200, weighted interpolation with a = 50. */
+#include "hdri.h"
 #include "prefenv.h"
 #include "reference.h"
 #include "sample_point.h"
@@ -132,16 +133,10 @@ static pe_env *shrink(const pe_env *env)
 
 static void test_hdri(const char *name)
 {
-    const char *data = getenv("PREFENV_DATA");
-    char path[4096];
-    pe_env *env, *small;
-    pe_error error;
+    pe_env *env = hdri_read(name), *small;
 
-    snprintf(path, sizeof path, "%s/hdri/%s.exr", data ? data : ".", name);
-    if (pe_env_read(path, &env, &error) != PE_OK) {
-        ok(1, "%s # SKIP %s", name, error.message);
+    if (!env)
         return;
-    }
     small = shrink(env);
     pe_env_free(env);
     test_surface(name, small, 0.1, 0.1, 1 / 8.0, 2);

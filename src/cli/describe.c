@@ -1,18 +1,20 @@
 /* describe.c - see describe.h. */
 #include "describe.h"
 
+#include "maps.h"
+
 #include <stdio.h>
 
 static const char *method_name(pe_method method)
 {
-    static const char *const names[] = { "default", "hemispheres", "representative", "baseline" };
+    static const char *const names[] = PE_METHOD_NAMES;
 
     return names[method];
 }
 
 static const char *ndf_name(const pe_ndf *ndf)
 {
-    static const char *const names[] = { "beckmann", "ggx", "phong", "table" };
+    static const char *const names[] = PE_NDF_NAMES;
 
     return names[ndf->kind];
 }
