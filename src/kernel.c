@@ -141,7 +141,7 @@ static pe_rect window_of(const pe_kernel *k, const double o[3])
         return (pe_rect){ 0, 0, k->cells.width, k->cells.height };
     mirror_point(o, straight, centre);
     for (int i = 0; i < RIM * RINGS; i++) {
-        double angle = 2 * M_PI * i / RIM, ring = (double)(i / RIM + 1) / RINGS, point[2];
+        double angle = 2 * M_PI * i / (RIM * RINGS), ring = (i % RINGS + 1.0) / RINGS, point[2];
         const double h[3] = { ring * k->reach[0] * cos(angle), ring * k->reach[1] * sin(angle), 1 };
 
         mirror_point(o, h, point);
@@ -234,7 +234,7 @@ static int make_room(void **array, size_t *room, size_t needed, size_t size)
 static void keep_span(row *r, int terms, int cell, const float *values, int width, float least)
 {
     int first = 0, last = width - 1;
-    size_t count;
+    int count;
 
     while (first < width && !(fabsf(values[first * terms]) > least))
         first++;
@@ -248,11 +248,11 @@ static void keep_span(row *r, int terms, int cell, const float *values, int widt
         r->failed = 1;
         return;
     }
-    count = (size_t)(last - first + 1);
-    r->spans[r->span_count++] = (span){ cell + first, (int)count, r->weight_count };
+    count = last - first + 1;
+    r->spans[r->span_count++] = (span){ cell + first, count, r->weight_count };
     memcpy(r->weights + (size_t)terms * r->weight_count, values + first * terms,
-           count * (size_t)terms * sizeof *values);
-    r->weight_count += count;
+           (size_t)count * (size_t)terms * sizeof *values);
+    r->weight_count += (size_t)count;
 }
 
 static void keep_window(const pe_kernel *k, const pe_rect *window, const float *values, row *r)

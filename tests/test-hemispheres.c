@@ -1,7 +1,7 @@
 /* test-hemispheres.c - claims: every texel of a hemisphere is the naive reference's; suns drawn out come back exact;
  * the kernel agrees with the loop over lights that it stands for, of D and of microfacets, and any number of threads
- * gives the same bytes; a white furnace is 1 everywhere; lookups are continuous; a brush direction given at each point costs less than half as
- * much error again as one that the file fixes; a file keeps all that. */
+ * gives the same bytes; a white furnace is 1 everywhere; lookups are continuous; a brush direction given at each point
+ * costs less than half as much error again as one that the file fixes; a file keeps all that. */
 #include "hemispheres.h"
 #include "ndf.h"
 #include "reference.h"
