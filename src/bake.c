@@ -8,6 +8,7 @@
 #include "filter.h"
 #include "hemispheres.h"
 #include "maps.h"
+#include "multiscale.h"
 #include "pairs.h"
 #include "shrink.h"
 #include "status.h"
@@ -215,6 +216,9 @@ static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
     case PE_METHOD_BASELINE:
         status = bake_baseline(j, env, error);
         break;
+    case PE_METHOD_LAYERS:
+    case PE_METHOD_VOXELS:
+        break; /* pe_multiscale_bake */
     }
     return status == PE_OK ? record_errors(j, env, error) : status;
 }
@@ -343,10 +347,21 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
     return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &report, &b->kernel, error);
 }
 
+static pe_status prepare_multiscale(pe_baker *b, int width, int height, pe_error *error)
+{
+    pe_status status = pe_multiscale_make(&b->options, width, height, &b->multiscale, error);
+
+    if (status == PE_OK)
+        b->info = *pe_multiscale_get_info(b->multiscale);
+    return status;
+}
+
 static pe_status prepare(pe_baker *b, int width, int height, pe_error *error)
 {
     pe_status status = check_error(b->options.error, error);
 
+    if (status == PE_OK && pe_method_has_roughness(b->options.method))
+        return prepare_multiscale(b, width, height, error);
     if (status == PE_OK)
         status = choose_info(&b->options, width, height, &b->info, error);
     if (status != PE_OK)
@@ -380,6 +395,7 @@ void pe_baker_free(pe_baker *b)
 {
     if (!b)
         return;
+    pe_multiscale_free(b->multiscale);
     pe_kernel_free(b->kernel);
     pe_lobe_free(b->lobe);
     free(b);
@@ -408,6 +424,8 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
     job j = { .baker = b, .fine = env, .known = known, .stage = { &b->options, 0, 0 } };
     pe_status status = pe_baker_check_size(b, env, error);
 
+    if (status == PE_OK && b->multiscale)
+        return pe_multiscale_bake(b->multiscale, env, known, out, error);
     info.source_name = env->name;
     if (status == PE_OK)
         status = pe_maps_create(&info, &j.maps, error);

@@ -5,6 +5,7 @@
 #include "kernel.h"
 #include "lobe.h"
 #include "maps.h"
+#include "multiscale.h"
 #include "parallel.h"
 
 struct pe_baker {
@@ -12,7 +13,8 @@ struct pe_baker {
     pe_maps_info info;        /* of the maps it makes, as far as the environment is not asked */
     pe_maps_info hemispheres; /* those that are filtered: the same, or what lat-long maps are looked up in */
     pe_lobe *lobe;
-    pe_kernel *kernel; /* NULL: they are filtered light by light */
+    pe_kernel *kernel;         /* NULL: they are filtered light by light */
+    pe_multiscale *multiscale; /* of maps of many roughnesses, and nothing else then; NULL for others */
 };
 
 /* A part of a bake, of the whole that the caller is told of. */

@@ -229,10 +229,12 @@ void set_attribute(Imf::Header &header, const pe_attribute &a)
     }
 }
 
-Imf::Header header_of(const pe_exr_part &part, int width, int height, pe_pixel_type type)
+/* The display window is the whole file's, that of its first part. */
+Imf::Header header_of(const pe_exr_part &part, const pe_exr_part &first, pe_pixel_type type)
 {
-    Imf::Header header(width, height);
+    Imf::Header header(part.width, part.height);
 
+    header.displayWindow() = Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(first.width - 1, first.height - 1));
     header.compression() = Imf::ZIP_COMPRESSION;
     header.zipCompressionLevel() = 1;
     header.setName(part.name);
@@ -264,18 +266,18 @@ void write_part(Imf::OutputPart &out, const float *rgb, int width, int height, p
     out.writePixels(height);
 }
 
-std::vector<unsigned char> encode(const pe_exr_part *parts, int count, int width, int height, pe_pixel_type type)
+std::vector<unsigned char> encode(const pe_exr_part *parts, int count, pe_pixel_type type)
 {
     MemoryOutput output;
     std::vector<Imf::Header> headers;
 
     for (int k = 0; k < count; k++)
-        headers.push_back(header_of(parts[k], width, height, type));
+        headers.push_back(header_of(parts[k], parts[0], type));
     {
         Imf::MultiPartOutputFile file(output, headers.data(), count, false, 0);
         for (int k = 0; k < count; k++) {
             Imf::OutputPart part(file, k);
-            write_part(part, parts[k].rgb, width, height, type);
+            write_part(part, parts[k].rgb, parts[k].width, parts[k].height, type);
         }
     } /* the file's destructor writes the offset tables */
     return std::move(output.bytes);
@@ -348,11 +350,10 @@ pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char 
     return guarded(name, error, [&] { return read_image(bytes, size, name, image, error); });
 }
 
-pe_status pe_exr_encode(const pe_exr_part *parts, int count, int width, int height, pe_pixel_type type,
-                        unsigned char **bytes, size_t *size, pe_error *error)
+pe_status pe_exr_encode(const pe_exr_part *parts, int count, pe_pixel_type type, unsigned char **bytes, size_t *size,
+                        pe_error *error)
 {
-    return guarded("OpenEXR output", error,
-                   [&] { return hand_out(encode(parts, count, width, height, type), bytes, size); });
+    return guarded("OpenEXR output", error, [&] { return hand_out(encode(parts, count, type), bytes, size); });
 }
 
 pe_status pe_exr_encode_gray(const float *values, int width, int height, const pe_attribute *attributes,

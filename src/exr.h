@@ -38,17 +38,18 @@ typedef struct pe_attribute {
     const char *string;
 } pe_attribute;
 
-/* One part to be written: lat-long RGB floats, rows from the top. */
+/* One part to be written: RGB floats, rows from the top. */
 typedef struct pe_exr_part {
     const char *name;
+    int width, height;
     const float *rgb;
     const pe_attribute *attributes;
     size_t attribute_count;
 } pe_exr_part;
 
-/* Encodes parts of one size as OpenEXR (scan lines, ZIP) into memory; release *bytes with free(). */
-pe_status pe_exr_encode(const pe_exr_part *parts, int count, int width, int height, pe_pixel_type type,
-                        unsigned char **bytes, size_t *size, pe_error *error);
+/* Encodes parts as OpenEXR (scan lines, ZIP) into memory; release *bytes with free(). */
+pe_status pe_exr_encode(const pe_exr_part *parts, int count, pe_pixel_type type, unsigned char **bytes, size_t *size,
+                        pe_error *error);
 
 /* The same of one picture without a name, of floats in one channel Y. */
 pe_status pe_exr_encode_gray(const float *values, int width, int height, const pe_attribute *attributes,

@@ -24,6 +24,7 @@ struct pe_geodesic {
     int frequency, count;
     double (*vertices)[3];
     double *lengths; /* of the flat grid point under each vertex, for barycentric weights of unit vertices */
+    double *shares;
     face faces[FACES];
     int opposite[FACES / 2][2]; /* faces whose centres are opposite, and, x by x, the first one's */
     double centres[3][FACES / 2];
@@ -69,22 +70,57 @@ static void make_face(face *f, const double a[3], const double b[3], const doubl
         f->inverse[k] /= volume;
 }
 
-/* The pair whose members are p or -p, made if it is new; returns the vertex at p. */
-static int find_or_add(pe_geodesic *g, const double p[3], double length)
+/* Vertices made so far, in slices of the sphere by their y: where neighbouring faces meet, each finds the other's. */
+typedef struct slices {
+    int count;
+    int *first; /* the vertex last put into each slice, -1 if there is none */
+    int *next;  /* of each vertex, the one put before it */
+} slices;
+
+static int slice_of(const slices *s, double y)
 {
-    for (int k = 0; k < g->count; k++)
-        if (pe_dot(g->vertices[k], p) > 1 - 1e-9)
-            return k;
+    int slice = (int)((y + 1) / 2 * s->count);
+
+    return slice < 0 ? 0 : slice >= s->count ? s->count - 1 : slice;
+}
+
+static void put(slices *s, const pe_geodesic *g, int vertex)
+{
+    int slice = slice_of(s, g->vertices[vertex][1]);
+
+    s->next[vertex] = s->first[slice];
+    s->first[slice] = vertex;
+}
+
+/* The vertex at p, -1 if there is none. */
+static int find(const slices *s, const pe_geodesic *g, const double p[3])
+{
+    for (int slice = slice_of(s, p[1] - 1e-6); slice <= slice_of(s, p[1] + 1e-6); slice++)
+        for (int k = s->first[slice]; k >= 0; k = s->next[k])
+            if (pe_dot(g->vertices[k], p) > 1 - 1e-9)
+                return k;
+    return -1;
+}
+
+/* The pair whose members are p or -p, made if it is new; returns the vertex at p. */
+static int find_or_add(pe_geodesic *g, slices *s, const double p[3], double length)
+{
+    int found = find(s, g, p);
+
+    if (found >= 0)
+        return found;
     for (int c = 0; c < 3; c++) {
         g->vertices[g->count][c] = p[c];
         g->vertices[g->count + 1][c] = -p[c];
     }
     g->lengths[g->count] = g->lengths[g->count + 1] = length;
+    put(s, g, g->count);
+    put(s, g, g->count + 1);
     g->count += 2;
     return g->count - 2;
 }
 
-static void make_vertices(pe_geodesic *g, face *f, const double a[3], const double b[3], const double c[3])
+static void make_vertices(pe_geodesic *g, slices *s, face *f, const double a[3], const double b[3], const double c[3])
 {
     int n = g->frequency;
 
@@ -96,7 +132,7 @@ static void make_vertices(pe_geodesic *g, face *f, const double a[3], const doub
                 p[k] = (i * a[k] + j * b[k] + (n - i - j) * c[k]) / n;
             length = sqrt(pe_dot(p, p));
             pe_scale(1 / length, p, p);
-            f->vertices[i * (n + 1) + j] = find_or_add(g, p, length);
+            f->vertices[i * (n + 1) + j] = find_or_add(g, s, p, length);
         }
 }
 
@@ -114,33 +150,66 @@ static void pair_faces(pe_geodesic *g)
             }
 }
 
-pe_status pe_geodesic_make(int frequency, pe_geodesic **out, pe_error *error)
+/* A flat grid's cells are all of one size; seen from the centre, one at the distance d is d^-3 as large, and has lost a
+ * sixth at the icosahedron's own corners, where five triangles meet in place of six. */
+static void set_shares(pe_geodesic *g)
 {
-    size_t count = 10 * (size_t)frequency * (size_t)frequency + 2;
-    size_t grid = (size_t)(frequency + 1) * (size_t)(frequency + 1);
+    double sum = 0;
+
+    for (int k = 0; k < g->count; k++) {
+        g->shares[k] = pow(g->lengths[k], -3) * (g->lengths[k] > 1 - 1e-9 ? 5.0 / 6 : 1);
+        sum += g->shares[k];
+    }
+    for (int k = 0; k < g->count; k++)
+        g->shares[k] /= sum;
+}
+
+static void make_faces(pe_geodesic *g, slices *s)
+{
+    size_t grid = (size_t)(g->frequency + 1) * (size_t)(g->frequency + 1);
     double corners[12][3];
     int triples[FACES][3];
-    pe_geodesic *g = calloc(1, sizeof *g);
 
-    if (!g)
-        return pe_fail_memory(error, "a geodesic sphere");
-    g->frequency = frequency;
-    g->vertices = calloc(count, sizeof *g->vertices);
-    g->lengths = calloc(count, sizeof *g->lengths);
-    g->grids = calloc(FACES * grid, sizeof *g->grids);
-    if (!g->vertices || !g->lengths || !g->grids) {
-        pe_geodesic_free(g);
-        return pe_fail_memory(error, "a geodesic sphere");
-    }
+    for (int k = 0; k < s->count; k++)
+        s->first[k] = -1;
     make_icosahedron(corners, triples);
     for (int k = 0; k < FACES; k++) {
         const double *a = corners[triples[k][0]], *b = corners[triples[k][1]], *c = corners[triples[k][2]];
 
         g->faces[k].vertices = g->grids + (size_t)k * grid;
         make_face(&g->faces[k], a, b, c);
-        make_vertices(g, &g->faces[k], a, b, c);
+        make_vertices(g, s, &g->faces[k], a, b, c);
     }
     pair_faces(g);
+    set_shares(g);
+}
+
+pe_status pe_geodesic_make(int frequency, pe_geodesic **out, pe_error *error)
+{
+    size_t count = 10 * (size_t)frequency * (size_t)frequency + 2;
+    size_t grid = (size_t)(frequency + 1) * (size_t)(frequency + 1);
+    slices s = { .count = 4 * frequency };
+    pe_geodesic *g = calloc(1, sizeof *g);
+    int whole;
+
+    if (!g)
+        return pe_fail_memory(error, "a geodesic sphere");
+    g->frequency = frequency;
+    g->vertices = calloc(count, sizeof *g->vertices);
+    g->lengths = calloc(count, sizeof *g->lengths);
+    g->shares = calloc(count, sizeof *g->shares);
+    g->grids = calloc(FACES * grid, sizeof *g->grids);
+    s.first = calloc((size_t)s.count, sizeof *s.first);
+    s.next = calloc(count, sizeof *s.next);
+    whole = g->vertices && g->lengths && g->shares && g->grids && s.first && s.next;
+    if (whole)
+        make_faces(g, &s);
+    free(s.first);
+    free(s.next);
+    if (!whole) {
+        pe_geodesic_free(g);
+        return pe_fail_memory(error, "a geodesic sphere");
+    }
     *out = g;
     return PE_OK;
 }
@@ -151,6 +220,7 @@ void pe_geodesic_free(pe_geodesic *g)
         return;
     free(g->vertices);
     free(g->lengths);
+    free(g->shares);
     free(g->grids);
     free(g);
 }
@@ -163,6 +233,11 @@ int pe_geodesic_count(const pe_geodesic *g)
 const double *pe_geodesic_vertex(const pe_geodesic *g, int index)
 {
     return g->vertices[index];
+}
+
+double pe_geodesic_share(const pe_geodesic *g, int index)
+{
+    return g->shares[index];
 }
 
 static const face *nearest_face(const pe_geodesic *g, const double n[3])

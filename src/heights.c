@@ -144,7 +144,7 @@ pe_status pe_heights_write(const pe_heights *heights, const char *path, pe_error
     size_t count = (size_t)heights->width * (size_t)heights->height, size;
     pe_attribute pitch = { .name = PITCH_ATTRIBUTE, .type = PE_ATTRIBUTE_DOUBLE, .number = heights->pitch };
     float *rgb = malloc(3 * count * sizeof *rgb);
-    pe_exr_part part = { "heights", rgb, &pitch, 1 };
+    pe_exr_part part = { "heights", heights->width, heights->height, rgb, &pitch, 1 };
     unsigned char *bytes;
     pe_status status;
 
@@ -152,7 +152,7 @@ pe_status pe_heights_write(const pe_heights *heights, const char *path, pe_error
         return pe_fail_memory(error, "heights");
     for (size_t k = 0; k < 3 * count; k++)
         rgb[k] = heights->values[k / 3];
-    status = pe_exr_encode(&part, 1, heights->width, heights->height, PE_PIXEL_FLOAT, &bytes, &size, error);
+    status = pe_exr_encode(&part, 1, PE_PIXEL_FLOAT, &bytes, &size, error);
     free(rgb);
     if (status != PE_OK)
         return status;

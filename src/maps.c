@@ -2,6 +2,7 @@
 #include "maps.h"
 
 #include "atlas.h"
+#include "layering.h"
 #include "parallel.h"
 #include "spline.h"
 #include "status.h"
@@ -74,9 +75,9 @@ static size_t stored_texels(const pe_maps_info *info)
     size_t texels = (size_t)info->width * (size_t)info->height;
     pe_atlas atlas;
 
-    if (info->method != PE_METHOD_HEMISPHERES)
+    if (info->method != PE_METHOD_HEMISPHERES && info->method != PE_METHOD_VOXELS)
         return texels * (size_t)info->images;
-    atlas = pe_atlas_of(info->normals, info->width, info->height);
+    atlas = pe_atlas_of(info->images / info->angles, info->width, info->height);
     return texels * (size_t)(atlas.rows * atlas.columns) * (size_t)info->angles;
 }
 
@@ -111,7 +112,34 @@ static void count_images(pe_maps_info *info)
     case PE_METHOD_BASELINE:
         info->images = 1;
         break;
+    case PE_METHOD_LAYERS:
+        break;
+    case PE_METHOD_VOXELS:
+        info->images = info->smoothness.size;
+        break;
     }
+}
+
+static pe_status check_roughness(const pe_maps_info *info, pe_error *error)
+{
+    pe_status status = pe_smoothness_check(&info->smoothness, error);
+    int size = info->smoothness.size;
+
+    if (status != PE_OK)
+        return status;
+    if (size <= 0 || info->smoothness.window <= 0 || info->smoothness.levels <= 0)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "size, window or levels is 0");
+    if (info->method == PE_METHOD_VOXELS && (info->width != size || info->height != size))
+        return pe_fail(error, PE_ERROR_ARGUMENT, "images of %d x %d are no slices of a cube of %d voxels", info->width,
+                       info->height, size);
+    if (info->method == PE_METHOD_LAYERS && (info->images < PE_LAYERS_MIN || info->images > PE_LAYERS_MAX))
+        return pe_fail(error, PE_ERROR_ARGUMENT, "layers %d is out of range; there are %d to %d", info->images,
+                       PE_LAYERS_MIN, PE_LAYERS_MAX);
+    if (info->method == PE_METHOD_LAYERS && (info->width != 2 * info->height || info->width < PE_LAYER_WIDTH_MIN))
+        return pe_fail(error, PE_ERROR_ARGUMENT,
+                       "size %d x %d of layers is not twice as wide as high and at least %d wide", info->width,
+                       info->height, PE_LAYER_WIDTH_MIN);
+    return PE_OK;
 }
 
 pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
@@ -120,13 +148,15 @@ pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
 
     if (status != PE_OK)
         return status;
-    if (info->method < PE_METHOD_HEMISPHERES || info->method > PE_METHOD_BASELINE)
+    if (info->method < PE_METHOD_HEMISPHERES || info->method > PE_METHOD_VOXELS)
         return pe_fail(error, PE_ERROR_ARGUMENT, "method %d is not known", (int)info->method);
     status = check_direction(info->direction, error);
     if (status == PE_OK)
         status = check_angles(info, error);
-    if (status == PE_OK && info->method != PE_METHOD_BASELINE)
+    if (status == PE_OK && (info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_REPRESENTATIVE))
         status = check_normals(info->normals, error);
+    if (status == PE_OK && pe_method_has_roughness(info->method))
+        status = check_roughness(info, error);
     if (status != PE_OK)
         return status;
     count_images(info);
@@ -138,15 +168,17 @@ static pe_status allocate(pe_maps *maps, const char *source_name, const char *nd
     pe_status status = PE_OK;
 
     maps->disc = (pe_disc){ maps->info.width, maps->info.height };
-    if (maps->info.method != PE_METHOD_HEMISPHERES)
+    if (maps->info.method == PE_METHOD_REPRESENTATIVE || maps->info.method == PE_METHOD_BASELINE)
         status = pe_grid_make(maps->info.width, maps->info.height, &maps->grid, error);
     if (status == PE_OK && maps->info.frequency)
         status = pe_geodesic_make(maps->info.frequency, &maps->geodesic, error);
+    if (status == PE_OK && maps->info.method == PE_METHOD_LAYERS)
+        status = pe_layers_make(maps, error);
     if (status != PE_OK)
         return status;
     maps->source_name = strdup(source_name ? source_name : "");
     maps->ndf_name = strdup(ndf_name ? ndf_name : "");
-    maps->rgb = calloc((size_t)maps->info.images * pe_maps_image_values(maps), sizeof *maps->rgb);
+    maps->rgb = calloc(pe_maps_values(maps), sizeof *maps->rgb);
     if (!maps->source_name || !maps->ndf_name || !maps->rgb)
         return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %d maps of %d x %d", maps->info.images,
                        maps->info.width, maps->info.height);
@@ -184,6 +216,7 @@ void pe_maps_free(pe_maps *maps)
     pe_geodesic_free(maps->geodesic);
     pe_grid_free(&maps->grid);
     pe_denominator_free(maps->denominator);
+    pe_layers_free(maps);
     free(maps->source_name);
     free(maps->ndf_name);
     free(maps->rgb);
@@ -197,9 +230,33 @@ const pe_maps_info *pe_maps_get_info(const pe_maps *maps)
     return &maps->info;
 }
 
+int pe_maps_have_roughness(const pe_maps *maps)
+{
+    return pe_method_has_roughness(maps->info.method);
+}
+
 const float *pe_maps_image(const pe_maps *maps, int k)
 {
-    return maps->rgb + (size_t)k * pe_maps_image_values(maps);
+    return maps->rgb + (maps->layers ? maps->layers[k].offset : (size_t)k * pe_maps_image_values(maps));
+}
+
+void pe_maps_image_size(const pe_maps *maps, int k, int *width, int *height)
+{
+    *width = maps->layers ? maps->layers[k].width : maps->info.width;
+    *height = maps->layers ? maps->layers[k].height : maps->info.height;
+}
+
+double pe_maps_image_exponent(const pe_maps *maps, int k)
+{
+    return maps->layers ? maps->layers[k].exponent : 0;
+}
+
+size_t pe_maps_values(const pe_maps *maps)
+{
+    const pe_layer *last = maps->layers ? &maps->layers[maps->info.images - 1] : NULL;
+
+    return last ? last->offset + 3 * (size_t)last->width * (size_t)last->height
+                : (size_t)maps->info.images * pe_maps_image_values(maps);
 }
 
 void pe_maps_normal(const pe_maps *maps, int k, double n[3])
@@ -279,6 +336,8 @@ pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error)
 {
     size_t normals = (size_t)maps->info.normals;
 
+    if (maps->info.method == PE_METHOD_LAYERS)
+        return pe_layers_finish(maps, threads, error);
     if (maps->info.method != PE_METHOD_HEMISPHERES)
         return PE_OK;
     maps->info.suns = maps->suns.count;

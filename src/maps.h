@@ -10,11 +10,22 @@
 #include "suns.h"
 #include "vector.h"
 
-#define PE_MAPS_FORMAT_VERSION 2
+#define PE_MAPS_FORMAT_VERSION 3
+#define PE_MAPS_FORMAT_VERSION_MIN 2 /* which has no layers and no voxels */
 #define PE_MAPS_SIDE_MAX 8192
 #define PE_MAPS_ANGLES_MIN 4 /* unless 1 */
 #define PE_MAPS_ANGLES_MAX 64
 #define PE_MAPS_TEXELS_MAX PE_IMAGE_TEXELS_MAX /* of all images together, as they are stored: 1.5 GiB of floats */
+
+#define PE_LAYER_WIDTH_MIN 32
+
+/* A lat-long picture of one roughness. */
+typedef struct pe_layer {
+    double exponent;
+    int width, height;
+    size_t offset; /* in rgb */
+    float *coefficients;
+} pe_layer;
 
 struct pe_maps {
     pe_maps_info info;
@@ -30,19 +41,40 @@ struct pe_maps {
     float turns[PE_MAPS_ANGLES_MAX][2]; /* cosine and sine of every angle */
     float *coefficients;                /* cubic splines through the images; one float more at the end */
     pe_denominator *denominator;        /* NULL where there are no suns */
+
+    pe_layer *layers; /* as many as there are images */
 };
 
 /* As files and people call them: by pe_method, whose default has none, and by pe_ndf_kind. */
 #define PE_METHOD_NAMES \
     { \
-        "", "hemispheres", "representative", "baseline" \
+        "", "hemispheres", "representative", "baseline", "layers", "voxels" \
     }
 #define PE_NDF_NAMES \
     { \
         "beckmann", "ggx", "phong", "table" \
     }
 
-/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images. */
+/* ---- layers ---- */
+
+/* Does info's method hold many roughnesses? */
+static inline int pe_method_has_roughness(pe_method method)
+{
+    return method == PE_METHOD_LAYERS || method == PE_METHOD_VOXELS;
+}
+
+/* Layer k: its exponent and its size follow from info's smoothness, number and size. */
+pe_layer pe_layer_of(const pe_maps_info *info, int k);
+
+/* Where an exponent lies among the layers, from 0 to the last. */
+double pe_layer_place(const pe_maps_info *info, double exponent);
+
+pe_status pe_layers_make(pe_maps *maps, pe_error *error);
+pe_status pe_layers_finish(pe_maps *maps, int threads, pe_error *error);
+void pe_layers_free(pe_maps *maps);
+
+/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images; of layers
+ * images is given. */
 pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error);
 
 /* Does that and allocates the images. */
@@ -68,7 +100,10 @@ static inline size_t pe_maps_image_values(const pe_maps *maps)
 
 static inline float *pe_maps_image_to_fill(pe_maps *maps, int k)
 {
-    return maps->rgb + (size_t)k * pe_maps_image_values(maps);
+    return maps->rgb + (maps->layers ? maps->layers[k].offset : (size_t)k * pe_maps_image_values(maps));
 }
+
+/* Floats of all images. */
+size_t pe_maps_values(const pe_maps *maps);
 
 #endif

@@ -2,11 +2,14 @@
  *
  * Hemispheres: one part for each brush angle, "angle.00" and so on, with the hemispheres of all normals side by side,
  * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
- * prefenv:normal; a baseline file has the one part "baseline".  Attributes of the first part: prefenv:version, :method,
+ * prefenv:normal; a baseline file has the one part "baseline".  Layers: part "layer.00" is the smoothest, each lat-long
+ * and with attribute prefenv:exponent.  Voxels: one part "voxels", the slices of the cube side by side, row by row.
+ *
+ * Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
  * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
  * :lookupError, :suns, :turn (the degrees that the angles divide), and for each sun :sun.00.direction and
- * :sun.00.power. */
+ * :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold and :lost. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"
@@ -18,6 +21,7 @@
 #include <string.h>
 
 static const char *const method_names[] = PE_METHOD_NAMES;
+static const char *const lost_names[] = { "spread", "dark" };
 static const char *const accuracy_names[] = { "auto", "exact", "fast" };
 static const char *const weight_names[] = { "ndf", "microfacet" };
 static const char *const ndf_names[] = PE_NDF_NAMES;
@@ -26,6 +30,7 @@ static const char *const ndf_names[] = PE_NDF_NAMES;
 #define PART_NAME_MAX 32
 #define ATTRIBUTES 17
 #define HEMISPHERE_ATTRIBUTES 6
+#define ROUGHNESS_ATTRIBUTES 7
 #define SUN_NAME_MAX 40
 
 /* ---- write ---- */
@@ -91,10 +96,25 @@ static void describe_hemispheres(const pe_maps_info *info, pe_attribute out[HEMI
     memcpy(out, all, sizeof all);
 }
 
+static void describe_roughness(const pe_maps_info *info, pe_attribute out[ROUGHNESS_ATTRIBUTES])
+{
+    const pe_attribute all[ROUGHNESS_ATTRIBUTES] = {
+        integer("prefenv:size", info->smoothness.size),
+        number("prefenv:window", info->smoothness.window),
+        number("prefenv:levels", info->smoothness.levels),
+        number("prefenv:lookupError", info->lookup_error),
+        integer("prefenv:width", info->width),
+        number("prefenv:threshold", info->threshold),
+        string("prefenv:lost", lost_names[info->lost]),
+    };
+
+    memcpy(out, all, sizeof all);
+}
+
 /* Everything a part needs while it is being written. */
 typedef struct part_room {
     char name[PART_NAME_MAX];
-    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + 2 * PE_SUNS_MAX];
+    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + ROUGHNESS_ATTRIBUTES + 2 * PE_SUNS_MAX];
     char sun_names[2 * PE_SUNS_MAX][SUN_NAME_MAX];
 } part_room;
 
@@ -114,23 +134,29 @@ static size_t describe_suns(const pe_suns *suns, part_room *room, pe_attribute *
     return 2 * (size_t)suns->count;
 }
 
+/* Several images of one size are one part, side by side. */
+static int has_atlas(const pe_maps_info *info)
+{
+    return info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_VOXELS;
+}
+
 static int parts_of(const pe_maps_info *info)
 {
-    return info->method == PE_METHOD_HEMISPHERES ? info->angles : info->images;
+    return has_atlas(info) ? info->angles : info->images;
 }
 
 static void name_part(const pe_maps_info *info, int k, char name[PART_NAME_MAX])
 {
+    static const char *const names[] = { "", "angle", "normal", "baseline", "layer", "voxels" };
     int digits = snprintf(NULL, 0, "%d", parts_of(info) - 1);
 
-    if (info->method == PE_METHOD_BASELINE)
-        snprintf(name, PART_NAME_MAX, "baseline");
+    if (info->method == PE_METHOD_BASELINE || info->method == PE_METHOD_VOXELS)
+        snprintf(name, PART_NAME_MAX, "%s", names[info->method]);
     else
-        snprintf(name, PART_NAME_MAX, "%s.%0*d", info->method == PE_METHOD_HEMISPHERES ? "angle" : "normal",
-                 digits > 2 ? digits : 2, k);
+        snprintf(name, PART_NAME_MAX, "%s.%0*d", names[info->method], digits > 2 ? digits : 2, k);
 }
 
-static void fill_part(const pe_maps *maps, int k, const float *picture, part_room *room, pe_exr_part *part)
+static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *part)
 {
     size_t count = 0;
     double n[3];
@@ -140,6 +166,8 @@ static void fill_part(const pe_maps *maps, int k, const float *picture, part_roo
         pe_maps_normal(maps, k, n);
         room->attributes[count++] = vector("prefenv:normal", n);
     }
+    if (maps->info.method == PE_METHOD_LAYERS)
+        room->attributes[count++] = number("prefenv:exponent", pe_maps_image_exponent(maps, k));
     if (k == 0) {
         describe(&maps->info, room->attributes + count);
         count += ATTRIBUTES;
@@ -149,13 +177,19 @@ static void fill_part(const pe_maps *maps, int k, const float *picture, part_roo
         count += HEMISPHERE_ATTRIBUTES;
         count += describe_suns(&maps->suns, room, room->attributes + count);
     }
-    *part = (pe_exr_part){ room->name, picture, room->attributes, count };
+    if (k == 0 && pe_method_has_roughness(maps->info.method)) {
+        describe_roughness(&maps->info, room->attributes + count);
+        count += ROUGHNESS_ATTRIBUTES;
+    }
+    part->name = room->name;
+    part->attributes = room->attributes;
+    part->attribute_count = count;
 }
 
 static pe_status check_half_range(const pe_maps *maps, const char *path, pe_error *error)
 {
     const float largest_half = 65504;
-    size_t values = (size_t)maps->info.images * pe_maps_image_values(maps);
+    size_t values = pe_maps_values(maps);
 
     for (size_t k = 0; k < values; k++)
         if (maps->rgb[k] > largest_half)
@@ -165,67 +199,70 @@ static pe_status check_half_range(const pe_maps *maps, const char *path, pe_erro
     return PE_OK;
 }
 
-/* The pictures to be written, one after the other. */
-typedef struct pictures {
-    int width, height;
-    const float *rgb;
-    float *own; /* to be freed, or NULL */
-} pictures;
-
 static pe_atlas atlas_of(const pe_maps_info *info)
 {
-    return pe_atlas_of(info->normals, info->width, info->height);
+    return pe_atlas_of(info->images / info->angles, info->width, info->height);
 }
 
-static pe_status make_pictures(const pe_maps *maps, pictures *out, pe_error *error)
+static size_t atlas_values(const pe_atlas *atlas)
 {
-    pe_atlas atlas;
-    size_t values;
+    return 3 * (size_t)atlas->width * (size_t)atlas->height;
+}
 
-    *out = (pictures){ maps->info.width, maps->info.height, maps->rgb, NULL };
-    if (maps->info.method != PE_METHOD_HEMISPHERES)
+/* The atlases of all parts, one after the other: in image k lies the tile k / angles of part k % angles. */
+static float *make_atlases(const pe_maps *maps, const pe_atlas *atlas)
+{
+    int angles = maps->info.angles;
+    float *pictures = calloc((size_t)angles * atlas_values(atlas), sizeof *pictures);
+
+    for (int k = 0; pictures && k < maps->info.images; k++)
+        pe_atlas_insert(atlas, k / angles, pe_maps_image(maps, k),
+                        pictures + (size_t)(k % angles) * atlas_values(atlas));
+    return pictures;
+}
+
+/* Gives the parts their pictures; *own is to be freed. */
+static pe_status add_pictures(const pe_maps *maps, pe_exr_part *parts, float **own, pe_error *error)
+{
+    pe_atlas atlas = atlas_of(&maps->info);
+
+    *own = NULL;
+    for (int k = 0; k < parts_of(&maps->info) && !has_atlas(&maps->info); k++) {
+        parts[k].rgb = pe_maps_image(maps, k);
+        pe_maps_image_size(maps, k, &parts[k].width, &parts[k].height);
+    }
+    if (!has_atlas(&maps->info))
         return PE_OK;
-    atlas = atlas_of(&maps->info);
-    values = 3 * (size_t)atlas.width * (size_t)atlas.height;
-    out->own = calloc((size_t)maps->info.angles * values, sizeof *out->own);
-    if (!out->own)
+    *own = make_atlases(maps, &atlas);
+    if (!*own)
         return pe_fail_memory(error, "an atlas of maps");
-    for (int k = 0; k < maps->info.images; k++)
-        pe_atlas_insert(&atlas, k / maps->info.angles, pe_maps_image(maps, k),
-                        out->own + (size_t)(k % maps->info.angles) * values);
-    *out = (pictures){ atlas.width, atlas.height, out->own, out->own };
+    for (int k = 0; k < parts_of(&maps->info); k++) {
+        parts[k].rgb = *own + (size_t)k * atlas_values(&atlas);
+        parts[k].width = atlas.width;
+        parts[k].height = atlas.height;
+    }
     return PE_OK;
-}
-
-static pe_status encode_pictures(const pe_maps *maps, const pictures *from, pe_pixel_type type, unsigned char **bytes,
-                                 size_t *size, pe_error *error)
-{
-    int count = parts_of(&maps->info);
-    size_t values = 3 * (size_t)from->width * (size_t)from->height;
-    part_room *rooms = calloc((size_t)count, sizeof *rooms);
-    pe_exr_part *parts = calloc((size_t)count, sizeof *parts);
-    pe_status status = PE_ERROR_MEMORY;
-
-    for (int k = 0; rooms && parts && k < count; k++)
-        fill_part(maps, k, from->rgb + (size_t)k * values, &rooms[k], &parts[k]);
-    if (rooms && parts)
-        status = pe_exr_encode(parts, count, from->width, from->height, type, bytes, size, error);
-    else
-        pe_fail_memory(error, "the parts of a maps file");
-    free(parts);
-    free(rooms);
-    return status;
 }
 
 static pe_status encode(const pe_maps *maps, pe_pixel_type type, unsigned char **bytes, size_t *size, pe_error *error)
 {
-    pictures all;
-    pe_status status = make_pictures(maps, &all, error);
+    int count = parts_of(&maps->info);
+    part_room *rooms = calloc((size_t)count, sizeof *rooms);
+    pe_exr_part *parts = calloc((size_t)count, sizeof *parts);
+    float *own = NULL;
+    pe_status status = PE_OK;
 
-    if (status != PE_OK)
-        return status;
-    status = encode_pictures(maps, &all, type, bytes, size, error);
-    free(all.own);
+    if (!rooms || !parts)
+        status = pe_fail_memory(error, "the parts of a maps file");
+    for (int k = 0; rooms && parts && k < count; k++)
+        fill_part(maps, k, &rooms[k], &parts[k]);
+    if (status == PE_OK)
+        status = add_pictures(maps, parts, &own, error);
+    if (status == PE_OK)
+        status = pe_exr_encode(parts, count, type, bytes, size, error);
+    free(own);
+    free(parts);
+    free(rooms);
     return status;
 }
 
@@ -311,7 +348,7 @@ static pe_status check_version(const header *from)
     int version = 0;
     pe_status status = get_integer(from, "prefenv:version", &version);
 
-    if (status == PE_OK && version != PE_MAPS_FORMAT_VERSION)
+    if (status == PE_OK && (version < PE_MAPS_FORMAT_VERSION_MIN || version > PE_MAPS_FORMAT_VERSION))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: format version %d is not the %d read here; bake it again",
                        from->name, version, PE_MAPS_FORMAT_VERSION);
     return status;
@@ -356,6 +393,27 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
     if (status == PE_OK && (info->suns < 0 || info->suns > PE_SUNS_MAX))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:suns %d is out of range; at most %d can be",
                        from->name, info->suns, PE_SUNS_MAX);
+    return status;
+}
+
+/* What layers and voxels have besides. */
+static pe_status read_roughness_info(const header *from, pe_maps_info *info)
+{
+    int lost = 0;
+    pe_status status = PE_OK;
+
+    if (!pe_method_has_roughness(info->method))
+        return PE_OK;
+    AND_THEN(get_integer(from, "prefenv:size", &info->smoothness.size))
+    AND_THEN(get_number(from, "prefenv:window", &info->smoothness.window))
+    AND_THEN(get_number(from, "prefenv:levels", &info->smoothness.levels))
+    AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
+    AND_THEN(get_integer(from, "prefenv:width", &info->width))
+    AND_THEN(get_number(from, "prefenv:threshold", &info->threshold))
+    AND_THEN(get_choice(from, "prefenv:lost", lost_names, COUNT(lost_names), &lost))
+    info->lost = (pe_lost_weight)lost;
+    info->height = info->method == PE_METHOD_LAYERS ? info->width / 2 : info->width;
+    info->images = info->method == PE_METHOD_LAYERS ? pe_exr_part_count(from->file) : info->smoothness.size;
     return status;
 }
 
@@ -413,7 +471,11 @@ static pe_status read_info(const header *from, pe_maps_info *info)
         info->error_wanted = wanted.number;
     info->source_name = source.string;
     info->ndf_name = ndf_name.string;
-    return method == PE_METHOD_DEFAULT ? missing(from, "prefenv:method") : read_hemispheres_info(from, info);
+    if (method == PE_METHOD_DEFAULT)
+        return missing(from, "prefenv:method");
+    status = read_hemispheres_info(from, info);
+    AND_THEN(read_roughness_info(from, info))
+    return status;
 }
 
 /* How many parts there are to be; 0: a count of normals that cannot be. */
@@ -421,9 +483,12 @@ static int expected_parts(const pe_maps_info *info)
 {
     switch (info->method) {
     case PE_METHOD_BASELINE:
+    case PE_METHOD_VOXELS:
         return 1;
     case PE_METHOD_REPRESENTATIVE:
         return info->normals / 2;
+    case PE_METHOD_LAYERS:
+        return info->images;
     case PE_METHOD_DEFAULT:
     case PE_METHOD_HEMISPHERES:
         break;
@@ -441,13 +506,13 @@ static pe_status check_part_count(const header *from, const pe_maps_info *info)
                    parts, info->normals, info->angles, expected);
 }
 
-/* Parts of one size; of lat-long maps, it is theirs and goes into info. */
+/* Parts of one size, but for layers, whose sizes are known; of lat-long maps, it is theirs and goes into info. */
 static pe_status check_parts(const header *from, pe_maps_info *info)
 {
     long long first_width, first_height;
     pe_status status = check_part_count(from, info);
 
-    if (status != PE_OK)
+    if (status != PE_OK || info->method == PE_METHOD_LAYERS)
         return status;
     pe_exr_part_size(from->file, 0, &first_width, &first_height);
     for (int k = 1; k < pe_exr_part_count(from->file); k++) {
@@ -458,7 +523,7 @@ static pe_status check_parts(const header *from, pe_maps_info *info)
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: part %d is %lld x %lld, part 0 is %lld x %lld",
                            from->name, k, width, height, first_width, first_height);
     }
-    if (info->method == PE_METHOD_HEMISPHERES)
+    if (has_atlas(info))
         return PE_OK;
     if (first_width > PE_MAPS_SIDE_MAX || first_height > PE_MAPS_SIDE_MAX)
         return pe_fail(from->error, PE_ERROR_LIMIT, "%s: size %lld x %lld is more than %d on a side", from->name,
@@ -493,13 +558,33 @@ static pe_status read_part(const header *from, int k, float *rgb, size_t values)
     return status;
 }
 
+/* Of layers, whose size follows from their place. */
+static pe_status check_layer(const header *from, const pe_maps *maps, int k)
+{
+    long long width, height;
+    int expected[2];
+
+    if (maps->info.method != PE_METHOD_LAYERS)
+        return PE_OK;
+    pe_exr_part_size(from->file, k, &width, &height);
+    pe_maps_image_size(maps, k, &expected[0], &expected[1]);
+    if (width == expected[0] && height == expected[1])
+        return PE_OK;
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: layer %d is %lld x %lld where %d layers need %d x %d", from->name,
+                   k, width, height, maps->info.images, expected[0], expected[1]);
+}
+
 static pe_status read_latlong(const header *from, pe_maps *maps)
 {
     pe_status status = PE_OK;
 
     for (int k = 0; status == PE_OK && k < maps->info.images; k++) {
+        int width, height;
+
+        pe_maps_image_size(maps, k, &width, &height);
         status = check_normal(from, maps, k);
-        AND_THEN(read_part(from, k, pe_maps_image_to_fill(maps, k), pe_maps_image_values(maps)))
+        AND_THEN(check_layer(from, maps, k))
+        AND_THEN(read_part(from, k, pe_maps_image_to_fill(maps, k), 3 * (size_t)width * (size_t)height))
     }
     return status;
 }
@@ -515,10 +600,11 @@ static pe_status check_atlas(const header *from, const pe_atlas *atlas)
                    width, height, atlas->count, atlas->tile_width, atlas->tile_height, atlas->width, atlas->height);
 }
 
-static pe_status read_hemispheres(const header *from, pe_maps *maps)
+static pe_status read_atlases(const header *from, pe_maps *maps)
 {
     pe_atlas atlas = atlas_of(&maps->info);
-    size_t values = 3 * (size_t)atlas.width * (size_t)atlas.height;
+    size_t values = atlas_values(&atlas);
+    int tiles = maps->info.images / maps->info.angles;
     float *picture;
     pe_status status = check_atlas(from, &atlas);
 
@@ -531,7 +617,7 @@ static pe_status read_hemispheres(const header *from, pe_maps *maps)
         return pe_fail_memory(from->error, "an atlas of maps");
     for (int angle = 0; status == PE_OK && angle < maps->info.angles; angle++) {
         status = read_part(from, angle, picture, values);
-        for (int k = 0; status == PE_OK && k < maps->info.normals; k++)
+        for (int k = 0; status == PE_OK && k < tiles; k++)
             pe_atlas_extract(&atlas, k, picture, pe_maps_image_to_fill(maps, k * maps->info.angles + angle));
     }
     free(picture);
@@ -552,7 +638,7 @@ static pe_status read_file(const header *from, pe_maps **out)
     if (status != PE_OK)
         return pe_fail(from->error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", from->name,
                        inner.message);
-    status = info.method == PE_METHOD_HEMISPHERES ? read_hemispheres(from, maps) : read_latlong(from, maps);
+    status = has_atlas(&info) ? read_atlases(from, maps) : read_latlong(from, maps);
     AND_THEN(pe_maps_finish(maps, 0, from->error))
     if (status == PE_OK)
         *out = maps;

@@ -16,6 +16,10 @@
 #define WINDOW_DEFAULT 6.2
 #define LEVELS_DEFAULT 256
 
+/* Of lambda = 1. */
+#define EXPONENT_MIN 16.0
+#define EXPONENT_MAX 1e5
+
 void pe_smoothness_complete(pe_smoothness *scale)
 {
     scale->size = scale->size ? scale->size : SIZE_DEFAULT;
@@ -37,6 +41,14 @@ pe_status pe_smoothness_check(const pe_smoothness *scale, pe_error *error)
     if (!(whole.levels >= 2 && whole.levels <= 1e6))
         return pe_fail(error, PE_ERROR_ARGUMENT, "levels %g is out of range; it lies between 2 and 1000000",
                        whole.levels);
+    if (!(pe_smoothness_exponent(&whole, 1) <= EXPONENT_MAX))
+        return pe_fail(error, PE_ERROR_ARGUMENT,
+                       "window %g is too narrow for size %d: lambda = 1 would be the exponent %g, above %g",
+                       whole.window, whole.size, pe_smoothness_exponent(&whole, 1), EXPONENT_MAX);
+    if (!(pe_smoothness_exponent(&whole, 1) >= EXPONENT_MIN))
+        return pe_fail(error, PE_ERROR_ARGUMENT,
+                       "window %g is too wide for size %d: lambda = 1 would be the exponent %g, below %g", whole.window,
+                       whole.size, pe_smoothness_exponent(&whole, 1), EXPONENT_MIN);
     return PE_OK;
 }
 

@@ -352,7 +352,8 @@ void pe_monte_carlo(const pe_env *env, const pe_surface *surface, const double d
  *   Lambda, the exponent;
  *   lambda, from 0 (rough) to 1 (a mirror, as far as a cube of size^3 voxels can hold it):
  *           Lambda = -ln(levels) / ln(cos(arctan(window / (lambda size)))) [Okumura Eq. 13];
- *   alpha,  the width of the normal distribution whose lobe, seen head on, is as wide: Lambda = (1 / alpha^2 - 1) / 2. */
+ *   alpha,  the width of the normal distribution whose lobe, seen head on, is as wide:
+ *           Lambda = (1 / alpha^2 - 1) / 2. */
 
 /* What lambda means.  Zeros mean the defaults. */
 typedef struct pe_smoothness {
@@ -382,8 +383,8 @@ typedef enum pe_horizon {
 } pe_horizon;
 
 /* The truth: every texel of the environment weighted by Phong's lobe about r and by its solid angle, in double
- * precision; the weights of the whole lobe, or of PE_HORIZON_MEAN those of what counts, add up to 1.  r and the normal n
- * of any length but zero; n may be NULL where the horizon is ignored.  exponent is not negative. */
+ * precision; the weights of the whole lobe, or of PE_HORIZON_MEAN those of what counts, add up to 1.  r and the normal
+ * n of any length but zero; n may be NULL where the horizon is ignored.  exponent is not negative. */
 void pe_phong(const pe_env *env, double exponent, pe_horizon horizon, const double n[3], const double r[3],
               double rgb[3]);
 
@@ -421,8 +422,18 @@ typedef enum pe_method {
     PE_METHOD_HEMISPHERES,    /* a map of its hemisphere for each representative normal, in its own tangent frame; the
                                    suns apart: their highlights are exact */
     PE_METHOD_REPRESENTATIVE, /* [Motegi 3.1]: a pair of opposite normals shares one lat-long map */
-    PE_METHOD_BASELINE        /* one map, the lobe as at normal incidence for every direction [Motegi Fig. 3a] */
+    PE_METHOD_BASELINE,       /* one map, the lobe as at normal incidence for every direction [Motegi Fig. 3a] */
+
+    /* For surfaces whose roughness varies: Phong's lobe about the mirror direction, of any smoothness lambda. */
+    PE_METHOD_LAYERS, /* a lat-long map for each of some roughnesses, as fine as its lobe needs; splines between them */
+    PE_METHOD_VOXELS  /* [Okumura]: a cube of voxels, linear between them */
 } pe_method;
+
+/* What of a lobe falls below the threshold of the voxels' weight table. */
+typedef enum pe_lost_weight {
+    PE_LOST_SPREAD = 0, /* is spread over the rest: white surroundings stay white */
+    PE_LOST_DARK        /* is missing [Okumura Eq. 9, 14] */
+} pe_lost_weight;
 
 /* How much memory the automatic choice of normals and sizes may take, in half floats. */
 typedef enum pe_quality {
@@ -448,6 +459,16 @@ typedef struct pe_bake_options {
     pe_quality quality;
     double error; /* the relative error wanted of what is looked up, 0.0005 to 0.1; 0: what `quality` gives */
     pe_accuracy accuracy;
+
+    /* Layers and voxels, which heed of those above accuracy and, layers, width and height of the smoothest alone (its
+     * height half its width).  AUTO is fast: voxels by the weight table, layers from smaller copies of the
+     * environment. */
+    pe_smoothness smoothness; /* what lambda means, and the voxels' number */
+    int layers;               /* 4 to 64; 0: as many as the error wants */
+    double threshold;         /* of the weight table, against the lobe's peak: 0.000001 to 0.5; 0: 0.001 */
+    pe_lost_weight lost;
+    const char *weights; /* a file that keeps the table: read if it is there, else written; NULL: it is not kept */
+
     int threads; /* 0: one a processor */
     pe_progress *progress;
     void *progress_data;
@@ -470,12 +491,19 @@ typedef struct pe_maps_info {
     int suns;          /* lights kept apart from the images */
     const char *source_name;
     int source_width, source_height;
-    pe_accuracy accuracy;  /* EXACT or FAST */
-    double error_estimate; /* relative L2 error of the texels against Eq. 5 where n.r > 0.15; 0 for exact */
-    double error_wanted;   /* of the options, or what their quality means; 0: a file that does not tell */
-    double lookup_error;   /* the same of linear lookups for normals and views of every kind, against pe_exact; 0 for
-                              lat-long maps: not measured */
+    pe_accuracy accuracy;     /* EXACT or FAST */
+    double error_estimate;    /* relative L2 error of the texels against Eq. 5 where n.r > 0.15; 0 for exact */
+    double error_wanted;      /* of the options, or what their quality means; 0: a file that does not tell */
+    double lookup_error;      /* the same of linear lookups for normals and views of every kind, against pe_exact; 0 for
+                              lat-long maps: not measured.  Layers and voxels: of lookups anywhere, against pe_phong,
+                              the estimate being that of texels and voxels */
+    pe_smoothness smoothness; /* layers and voxels: what their roughness lambda means; else zeros */
+    double threshold;         /* voxels: of the weight table; 0: made without one */
+    pe_lost_weight lost;
 } pe_maps_info;
+
+/* Do lookups heed a point's roughness?  Non-zero if so: it is the lambda of info's smoothness. */
+int pe_maps_have_roughness(const pe_maps *maps);
 
 const pe_maps_info *pe_maps_get_info(const pe_maps *maps);
 
@@ -509,11 +537,17 @@ pe_status pe_baker_bake(const pe_baker *baker, const pe_env *env, const pe_bake_
 pe_status pe_baker_bake_frames(const pe_baker *baker, const pe_env *const *envs, int count,
                                const pe_bake_errors *errors, pe_maps **maps, pe_error *error);
 
-/* Image k, 3 * width * height floats.
+/* Image k, 3 * width * height floats; of layers each has its own size: pe_maps_image_size.
  * Hemispheres: that of the normal n_k/angles with its brush turned by k % angles; src/disc.h says which texel looks
  * where, those beyond the horizon carry on as the last within.  Suns are not in it.
- * Lat-long: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k. */
+ * Lat-long: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k.
+ * Layers: lat-long, what Phong's lobe of the exponent pe_maps_image_exponent gathers about each direction; the
+ * smoothest first.
+ * Voxels: those of one z, rows of one y; voxel (x, y, z) is centred at lambda r = (2 (x, y, z) + 1) / size - 1.  Those
+ * that no lookup takes are black. */
 const float *pe_maps_image(const pe_maps *maps, int k);
+void pe_maps_image_size(const pe_maps *maps, int k, int *width, int *height);
+double pe_maps_image_exponent(const pe_maps *maps, int k);    /* of layers; else 0 */
 void pe_maps_normal(const pe_maps *maps, int k, double n[3]); /* n_k, unit */
 
 /* Do these bytes start an OpenEXR file that carries Prefenv's attributes?  Non-zero if so. */
@@ -550,10 +584,11 @@ typedef struct pe_sampling {
 typedef struct pe_point {
     double n[3], o[3];
     const double *direction; /* the brush's at this point; NULL, or maps of one angle: the one of the file */
-    double roughness;        /* of maps of many roughnesses; those of one, as every method here makes, ignore it */
+    double roughness;        /* layers and voxels: lambda, what is outside [0, 1] as the nearer end; others ignore it */
 } pe_point;
 
-/* The reflected radiance of a point: [Motegi Eq. 3] with the interpolation asked for.  `sampling` may be NULL
+/* The reflected radiance of a point: [Motegi Eq. 3] with the interpolation asked for; of layers and voxels
+ * [Okumura Eq. 4], which have no normals to interpolate between.  `sampling` may be NULL
  * (defaults). */
 void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point *point, double rgb[3]);
 

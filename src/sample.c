@@ -76,8 +76,20 @@ void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point 
     if (pe_dot(view.n, view.o) < 0)
         pe_scale(-1, view.n, view.n);
     pe_reflect(view.o, view.n, view.r);
-    if (maps->info.method == PE_METHOD_HEMISPHERES)
+    switch (maps->info.method) {
+    case PE_METHOD_DEFAULT:
+    case PE_METHOD_HEMISPHERES:
         pe_sample_hemispheres(maps, sampling ? sampling : &defaults, &view, rgb);
-    else
+        break;
+    case PE_METHOD_REPRESENTATIVE:
+    case PE_METHOD_BASELINE:
         pe_sample_latlong(maps, sampling ? sampling : &defaults, &view, rgb);
+        break;
+    case PE_METHOD_LAYERS:
+        pe_sample_layers(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
+        break;
+    case PE_METHOD_VOXELS:
+        pe_sample_voxels(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
+        break;
+    }
 }

@@ -18,6 +18,10 @@ typedef void pe_visit(int vertex, double weight, void *data);
 void pe_visit_normals(const pe_maps *maps, const pe_sampling *sampling, const double n[3], pe_visit *visit, void *data);
 
 void pe_sample_latlong(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3]);
+/* Phong's lobe about r, of the smoothness lambda. */
+void pe_sample_layers(const pe_maps *maps, const double r[3], double lambda, double rgb[3]);
+void pe_sample_voxels(const pe_maps *maps, const double r[3], double lambda, double rgb[3]);
+
 void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3]);
 
 #endif

@@ -256,4 +256,39 @@ else
     skip "script(1) cannot make a terminal here" 3
 fi
 
+# ---- many roughnesses ----
+
+like "$("$PREFENV" bake env.exr -o voxels.exr --method voxels --size 16 --weights table.bin 2>&1)" \
+    '^voxels.exr: 16\^3 voxels, ' "voxels: the summary"
+like "$("$PREFENV" info voxels.exr)" '^threshold  0.001, what is left out is made up for$' "voxels: info"
+cp table.bin kept.bin
+is "$("$PREFENV" bake env.exr -o again.exr --method voxels --size 16 --weights table.bin --quiet; echo $?)" 0 \
+    "voxels: a table that is there is read"
+is "$(cmp voxels.exr again.exr && cmp table.bin kept.bin && echo same)" same "and gives the same, itself as it was"
+like "$("$PREFENV" bake env.exr -o no.exr --method voxels --size 32 --weights table.bin 2>&1)" \
+    'table.bin: weights for size 16, not the 32 asked for; name another file' "a table of another size is refused"
+like "$("$PREFENV" bake env.exr -o no.exr --method voxels --size 16 --threshold 0.1 --weights table.bin 2>&1)" \
+    'table.bin: weights of threshold 0.001, not the 0.1 asked for' "and of another threshold"
+like "$("$PREFENV" bake env.exr -o no.exr --method voxels --size 16 --weights env.exr 2>&1)" \
+    'env.exr: is not a file of weights' "and what is none"
+like "$("$PREFENV" bake env.exr -o table.bin --method voxels --size 16 --weights table.bin 2>&1)" \
+    'table.bin: is the input table.bin itself' "a table is not written over by voxels"
+"$PREFENV" bake env.exr -o dark.exr --method voxels --size 16 --threshold 0.1 --no-renormalise --quiet
+like "$("$PREFENV" info dark.exr)" '^threshold  0.1, what is left out is missing$' "--no-renormalise"
+"$PREFENV" bake env.exr -o exact.exr --method voxels --size 16 --exact --quiet
+like "$("$PREFENV" info --json exact.exr | jq -c '[.accuracy, .threshold, .size, .window, .levels, .images]')" \
+    '^\["exact",0,16,6.2,256,16\]$' "voxels --exact, in JSON"
+like "$("$PREFENV" bake env.exr -o layers.exr --method layers --size 16 --window 3 2>&1)" \
+    '^layers.exr: [0-9]+ layers of up to [0-9]+x[0-9]+, ' "layers: the summary"
+for option in "--alpha 0.1" "--normals 42" "--angles 8" "--weight microfacet" "--material gold"; do
+    # shellcheck disable=SC2086 # words
+    like "$("$PREFENV" bake env.exr -o no.exr --method layers $option 2>&1)" \
+        "${option%% *} does not go with --method layers and voxels" "layers: $option is refused"
+done
+like "$("$PREFENV" bake env.exr -o no.exr --threshold 0.1 2>&1)" '--threshold is for --method voxels' \
+    "--threshold alone"
+like "$("$PREFENV" bake env.exr -o no.exr --method layers --size 64x32 2>&1)" 'of layers and voxels it is one number' \
+    "layers: two numbers for --size"
+is "$(ls no.exr 2>/dev/null)" "" "nothing is written where something is refused"
+
 done_testing

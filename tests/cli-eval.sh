@@ -86,11 +86,25 @@ is "$(holds "$sharp > $blunt && $blunt > $dull")" 1 "exact --phong: the smoother
 is "$(phong_of "$lit 0.05")" "$(phong_of "$lit 0.1" --size 64)" "exact --phong: lambda means voxels"
 floor="0 0 -1 0 1 -0.01"
 dark=$(phong_of "$floor 0.02" --horizon dark) mean=$(phong_of "$floor 0.02" --horizon mean)
-is "$(holds "$dark < 0.7 && $mean >= 1 && $(phong_of "$floor 0.02") >= 1")" 1 "exact --phong --horizon: dark, mean, ignored"
+is "$(holds "$dark < 0.7 && $mean >= 1 && $(phong_of "$floor 0.02") >= 1")" 1 \
+    "exact --phong --horizon: dark, mean, ignored"
 like "$(phong_of "0 0 1 0 1 1")" "6 values; seven are wanted: nx ny nz ox oy oz roughness, or ten, with" \
     "exact --phong: no roughness"
 like "$(phong_of "0 0 1 0 1 1 rough")" 'roughness is "rough", which is not a number' "exact --phong: a word for it"
 like "$(phong_of "0 0 1 0 1 1 1" --size 55)" "size 55 is not an even number from 8 to 256" "exact --phong: an odd size"
+
+# ---- maps of many roughnesses ----
+
+for method in layers voxels; do
+    "$PREFENV" bake spot.exr -o $method.exr --method $method --size 32 --quiet || bail_out "bake --method $method"
+    got=$(printf '%s 0.1\n' "$lit" | "$PREFENV" eval $method.exr)
+    exact=$(printf '%s 0.1\n' "$lit" | "$PREFENV" exact spot.exr --phong --size 32)
+    is "$(holds "(${got%% *} / ${exact%% *} - 1)^2 < 0.1")" 1 "eval of $method: ${got%% *} where ${exact%% *} is exact"
+    is "$(printf '0 0 1 0 1 1 2\n0 0 1 0 1 1 1\n' | "$PREFENV" eval $method.exr | uniq | wc -l)" 1 \
+        "eval of $method: beyond 1 it is 1"
+    like "$(echo '0 0 1 0 1 1' | "$PREFENV" eval $method.exr 2>&1)" "seven are wanted: nx ny nz ox oy oz roughness" \
+        "eval of $method: no roughness"
+done
 
 for command in "eval flat.pe.exr" "exact flat.exr"; do
     # shellcheck disable=SC2086 # words

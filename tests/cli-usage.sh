@@ -55,12 +55,14 @@ options_of()
 }
 
 is "$(options_of bake)" \
-    "alpha angles direction error exact fast float force frames help ior json k material method ndf normals output \
-paper quality quiet shard size threads weight " \
+    "alpha angles direction error exact fast float force frames help ior json k levels material method ndf \
+no-renormalise normals output paper quality quiet shard size threads threshold weight weights window " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
-is "$(options_of exact)" "alpha direction help horizon ior k levels material ndf phong quiet size threads weight window " "the options of exact"
+is "$(options_of exact)" \
+    "alpha direction help horizon ior k levels material ndf phong quiet size threads weight window " \
+    "the options of exact"
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
 is "$(options_of ndf)" \
@@ -113,7 +115,7 @@ done <<'TABLE'
 --normals 99999999999999999999|out of range: 12 to 10242
 --normals many|a whole number is wanted
 --normals 42.5|a whole number is wanted
---size 400|width and height are wanted
+--size 9000|out of range: 2 to 8192
 --size 400x|width and height are wanted
 --size 1x200|--size 1x200: out of range: 2 to 8192
 --size 400x8193|out of range: 2 to 8192

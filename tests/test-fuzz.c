@@ -7,6 +7,7 @@
 #include "reference.h"
 #include "sample_point.h"
 #include "tap.h"
+#include "weights.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -70,6 +71,24 @@ static void seed_angles(seed *s)
     need(pe_env_create(48, 24, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
              pe_maps_get_info(maps)->suns == 1 && pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
          "cannot make maps with a sun and angles");
+    load_file(path, s);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
+static void seed_roughness(seed *s, pe_method method)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(16, 8, 6);
+    pe_bake_options options = { .method = method, .smoothness.size = 8, .layers = 4, .width = 32 };
+    pe_env *env;
+    pe_maps *maps = NULL;
+
+    close(mkstemp(path));
+    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
+             pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
+         "cannot make maps of many roughnesses");
     load_file(path, s);
     pe_maps_free(maps);
     pe_env_free(env);
@@ -267,10 +286,53 @@ static void test_seed(const seed *s)
     ok(sound, "%s: %d damaged copies, %d still load", s->name, s->rounds, loaded);
 }
 
+/* Weights carry a sum of their bytes, which says no to nearly all that is damaged: it is put right, so that what is
+ * behind it is tried, too. */
+static void test_weights(void)
+{
+    static unsigned char whole[SIZE_MAX_BYTES], bytes[SIZE_MAX_BYTES];
+    const pe_smoothness scale = { 8, 2, 4 };
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    unsigned state = 4;
+    int sound = 1, loaded = 0;
+    pe_weights *w;
+    size_t size;
+    FILE *file;
+
+    close(mkstemp(path));
+    need(pe_weights_make(&scale, 0.3, 1, NULL, &w, NULL) == PE_OK && pe_weights_write(w, path, NULL) == PE_OK,
+         "cannot make weights");
+    pe_weights_free(w);
+    file = fopen(path, "rb");
+    need(file != NULL, "cannot open %s", path);
+    size = fread(whole, 1, sizeof whole, file);
+    fclose(file);
+    unlink(path);
+    need(size > 100 && size < sizeof whole, "weights have %zu bytes", size);
+    for (int round = 0; round < ROUNDS / 10; round++) {
+        size_t cut = size;
+        pe_error error = { PE_OK, "" };
+
+        memcpy(bytes, whole, size);
+        for (int k = 0; k <= round % 3; k++)
+            damage(bytes, &cut, &state);
+        if (round % 2 && cut > 8)
+            pe_weights_seal(bytes, cut);
+        if (pe_weights_read_memory(bytes, cut, "fuzz", &w, &error) == PE_OK) {
+            pe_weights_free(w);
+            loaded++;
+        } else {
+            sound &= error.message[0] && !strchr(error.message, '\n');
+        }
+    }
+    ok(sound, "weights: %zu bytes, %d damaged copies, %d still load", size, ROUNDS / 10, loaded);
+}
+
 int main(void)
 {
-    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },   { .name = "HDR" },
-                            { .name = "heights" },   { .name = "table" },      { .name = "angles" } };
+    static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },
+                            { .name = "HDR" },       { .name = "heights" },    { .name = "table" },
+                            { .name = "angles" },    { .name = "layers" },     { .name = "voxels" } };
 
     seed_maps(&seeds[0], PE_PIXEL_HALF);
     seed_maps(&seeds[1], PE_PIXEL_FLOAT);
@@ -279,9 +341,12 @@ int main(void)
     seed_heights(&seeds[4]);
     seed_table(&seeds[5]);
     seed_angles(&seeds[6]);
-    for (int k = 0; k < 7; k++) {
-        seeds[k].rounds = k < 6 ? ROUNDS : ROUNDS / 10; /* with suns to weigh, loading takes longer */
+    seed_roughness(&seeds[7], PE_METHOD_LAYERS);
+    seed_roughness(&seeds[8], PE_METHOD_VOXELS);
+    for (int k = 0; k < 9; k++) {
+        seeds[k].rounds = k < 6 ? ROUNDS : ROUNDS / 10; /* with suns or more parts, loading takes longer */
         test_seed(&seeds[k]);
     }
+    test_weights();
     return done_testing();
 }

@@ -25,6 +25,9 @@ typedef struct bake_settings {
     int paper, normals, angles, size[2], quality;
     double error;
     int exact, fast, floats;
+    double window, levels, threshold;
+    int no_renormalise;
+    const char *weights;
     const char *frames, *shard;
     int force;
     int threads, json, quiet;
@@ -36,10 +39,9 @@ static const cli_operand operands[] = {
 };
 
 static const cli_choice methods[] = {
-    { "hemispheres", PE_METHOD_HEMISPHERES },
-    { "representative", PE_METHOD_REPRESENTATIVE },
-    { "baseline", PE_METHOD_BASELINE },
-    { NULL, 0 },
+    { "hemispheres", PE_METHOD_HEMISPHERES }, { "representative", PE_METHOD_REPRESENTATIVE },
+    { "baseline", PE_METHOD_BASELINE },       { "layers", PE_METHOD_LAYERS },
+    { "voxels", PE_METHOD_VOXELS },           { NULL, 0 },
 };
 
 static const cli_choice qualities[] = {
@@ -54,7 +56,8 @@ static const cli_option options[] = {
     { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, NULL, 0,
       "hemispheres (the default): a picture of its hemisphere for each normal; representative: opposite normals share "
       "a "
-      "lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison" },
+      "lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison; layers: for "
+      "roughness that varies, Phong's lobe of any smoothness; voxels: the same in a cube" },
     { "paper", 0, NULL, CLI_SWITCH, offsetof(bake_settings, paper), 0, 0, NULL, NULL, 0,
       "the paper's settings: --method representative --normals 42 --size 400x200" },
     CLI_OPTION_NDF(bake_settings),
@@ -67,7 +70,9 @@ static const cli_option options[] = {
     { "normals", 0, "COUNT", CLI_INTEGER, offsetof(bake_settings, normals), NORMALS_MIN, NORMALS_MAX, NULL, NULL, 0,
       "representative normals: 12, 42, 92, 162, ... 10f^2+2. Default: as alpha and --error need, of lat-long maps 42" },
     { "size", 0, "WxH", CLI_SIZE, offsetof(bake_settings, size), 2, 8192, NULL, NULL, 0,
-      "width and height of each map. Default: as alpha and --error need, of lat-long maps 400x200" },
+      "width and height of each map. Default: as alpha and --error need, of lat-long maps 400x200. Of layers and "
+      "voxels "
+      "one number S: the voxels along the cube's edge that lambda refers to; default 128" },
     { "angles", 0, "K", CLI_INTEGER, offsetof(bake_settings, angles), 1, 64, NULL, "1", 0,
       "filter each normal for K brush directions, 4 to 64, so that the brush may point anywhere; 1: along "
       "--direction" },
@@ -80,6 +85,14 @@ static const cli_option options[] = {
       "weigh every texel of the environment. Default: exact up to 128x64 texels of ENV, fast above" },
     { "fast", 0, NULL, CLI_SWITCH, offsetof(bake_settings, fast), 0, 0, NULL, NULL, 0,
       "gather texels in clusters; the error is estimated and recorded" },
+    CLI_OPTION_WINDOW(bake_settings),
+    CLI_OPTION_LEVELS(bake_settings),
+    { "threshold", 0, "T", CLI_NUMBER, offsetof(bake_settings, threshold), 0.000001, 0.5, NULL, NULL, 0,
+      "of voxels: weights below T of a lobe's peak are left out. Default: 0.001" },
+    { "no-renormalise", 0, NULL, CLI_SWITCH, offsetof(bake_settings, no_renormalise), 0, 0, NULL, NULL, 0,
+      "of voxels: and are missing then, as in the paper; by default the rest makes up for them" },
+    { "weights", 0, "FILE", CLI_TEXT, offsetof(bake_settings, weights), 0, 0, NULL, NULL, 0,
+      "of voxels: keep the table of weights in FILE: read if it is there, else made and written" },
     { "float", 0, NULL, CLI_SWITCH, offsetof(bake_settings, floats), 0, 0, NULL, NULL, 0,
       "store 32-bit floats, not half floats" },
     { "frames", 0, "FIRST-LAST", CLI_TEXT, offsetof(bake_settings, frames), 0, 0, NULL, NULL, 0,
@@ -95,6 +108,52 @@ static const cli_option options[] = {
     { .name = NULL },
 };
 
+static int has_roughness(const bake_settings *settings)
+{
+    return settings->method == PE_METHOD_LAYERS || settings->method == PE_METHOD_VOXELS;
+}
+
+/* What has no meaning for surfaces of any roughness, and what has none for others. */
+static int check_roughness(const bake_settings *settings)
+{
+    const struct {
+        const char *option;
+        int given, for_layers, for_voxels, for_others;
+    } rows[] = {
+        { "alpha", settings->surface.alpha[0] > 0, 0, 0, 1 },
+        { "normals", settings->normals > 0, 0, 0, 1 },
+        { "angles", settings->angles > 1, 0, 0, 1 },
+        { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0, 0, 1 },
+        { "material", settings->surface.material != NULL, 0, 0, 1 },
+        { "threshold", settings->threshold > 0, 0, 1, 0 },
+        { "no-renormalise", settings->no_renormalise, 0, 1, 0 },
+        { "weights", settings->weights != NULL, 0, 1, 0 },
+    };
+
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        int allowed = settings->method == PE_METHOD_LAYERS   ? rows[k].for_layers
+                      : settings->method == PE_METHOD_VOXELS ? rows[k].for_voxels
+                                                             : rows[k].for_others;
+
+        if (!rows[k].given || allowed)
+            continue;
+        if (rows[k].for_voxels)
+            cli_error("bake", "--%s is for --method voxels; leave it out or give both", rows[k].option);
+        else
+            cli_error("bake",
+                      "--%s does not go with --method layers and voxels, whose roughness is said at each lookup; "
+                      "leave it out",
+                      rows[k].option);
+        return CLI_FAILURE;
+    }
+    if (has_roughness(settings) && settings->size[0] != settings->size[1]) {
+        cli_error("bake", "--size %dx%d: of layers and voxels it is one number, such as 128", settings->size[0],
+                  settings->size[1]);
+        return CLI_FAILURE;
+    }
+    return CLI_SUCCESS;
+}
+
 static int check_settings(const bake_settings *settings)
 {
     if (settings->exact && settings->fast) {
@@ -109,7 +168,7 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "%s is for sequences; give --frames, too", settings->shard ? "--shard" : "--force");
         return CLI_FAILURE;
     }
-    return CLI_SUCCESS;
+    return check_roughness(settings);
 }
 
 static void set_options(const bake_settings *settings, const pe_surface *surface, pe_bake_options *out)
@@ -119,14 +178,18 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
         .surface = *surface,
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
-        .width = settings->size[0],
-        .height = settings->size[1],
+        .width = has_roughness(settings) ? 0 : settings->size[0],
+        .height = has_roughness(settings) ? 0 : settings->size[1],
         .angles = settings->angles,
         .quality = (pe_quality)settings->quality,
         .error = settings->error,
         .accuracy = settings->exact  ? PE_ACCURACY_EXACT
                     : settings->fast ? PE_ACCURACY_FAST
                                      : PE_ACCURACY_AUTO,
+        .smoothness = { has_roughness(settings) ? settings->size[0] : 0, settings->window, settings->levels },
+        .threshold = settings->threshold,
+        .lost = settings->no_renormalise ? PE_LOST_DARK : PE_LOST_SPREAD,
+        .weights = settings->weights,
         .threads = settings->threads,
     };
 }
@@ -136,7 +199,7 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
 static void print_summary(const bake_settings *settings, const batch *b, double seconds)
 {
     const pe_maps_info *info = pe_maps_get_info(b->maps);
-    char accuracy[DESCRIBE_BYTES], repairs[64] = "";
+    char accuracy[DESCRIBE_BYTES], images[DESCRIBE_BYTES], repairs[64] = "";
     struct stat status;
     double bytes = stat(settings->output, &status) == 0 ? (double)status.st_size : 0;
 
@@ -157,13 +220,14 @@ static void print_summary(const bake_settings *settings, const batch *b, double 
     describe_accuracy(info, accuracy);
     if (b->repairs)
         snprintf(repairs, sizeof repairs, "; %zu source %s repaired", b->repairs, b->repairs == 1 ? "texel" : "texels");
-    fprintf(stderr, "%s: %d %s of %dx%d, %.1f MB, in %.1f s, %s%s\n", settings->output, info->images,
-            info->images == 1 ? "map" : "maps", info->width, info->height, bytes / 1e6, seconds, accuracy, repairs);
+    describe_images(info, images);
+    fprintf(stderr, "%s: %s, %.1f MB, in %.1f s, %s%s\n", settings->output, images, bytes / 1e6, seconds, accuracy,
+            repairs);
 }
 
 static int bake_one(const bake_settings *settings, batch *b, double begun)
 {
-    const char *inputs[] = { settings->environment, settings->surface.ndf, NULL };
+    const char *inputs[] = { settings->environment, settings->surface.ndf, settings->weights, NULL };
     int result;
 
     if (cli_check_exr_output("bake", settings->output, inputs) != CLI_SUCCESS)
@@ -201,7 +265,7 @@ static int for_each_frame(const bake_settings *settings, const frames *f, frame_
 /* Before hours of work: is every frame there, and can it be written? */
 static int check_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
 {
-    const char *inputs[] = { environment, settings->surface.ndf, NULL };
+    const char *inputs[] = { environment, settings->surface.ndf, settings->weights, NULL };
     struct stat about;
 
     (void)b;
@@ -233,7 +297,7 @@ static void print_sequence_json(const bake_settings *settings, const batch *b, d
 
 static void print_sequence(const bake_settings *settings, const batch *b, double seconds)
 {
-    char accuracy[DESCRIBE_BYTES];
+    char accuracy[DESCRIBE_BYTES], images[DESCRIBE_BYTES];
 
     if (settings->json) {
         print_sequence_json(settings, b, seconds);
@@ -247,8 +311,8 @@ static void print_sequence(const bake_settings *settings, const batch *b, double
         const pe_maps_info *info = pe_maps_get_info(b->maps);
 
         describe_accuracy(info, accuracy);
-        fprintf(stderr, "; %d %s of %dx%d each, %s", info->images, info->images == 1 ? "map" : "maps", info->width,
-                info->height, accuracy);
+        describe_images(info, images);
+        fprintf(stderr, "; %s each, %s", images, accuracy);
     }
     fprintf(stderr, "\n");
 }

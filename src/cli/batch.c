@@ -210,7 +210,9 @@ static int is_same_bake(const pe_maps_info *a, const pe_maps_info *b)
 {
     return is_same_surface(a, b) && a->method == b->method && a->normals == b->normals && a->angles == b->angles &&
            a->width == b->width && a->height == b->height && a->accuracy == b->accuracy &&
-           a->error_wanted == b->error_wanted && a->source_width == b->source_width &&
+           a->error_wanted == b->error_wanted && a->smoothness.size == b->smoothness.size &&
+           a->smoothness.window == b->smoothness.window && a->smoothness.levels == b->smoothness.levels &&
+           a->threshold == b->threshold && a->lost == b->lost && a->source_width == b->source_width &&
            a->source_height == b->source_height && memcmp(a->direction, b->direction, sizeof a->direction) == 0;
 }
 

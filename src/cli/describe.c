@@ -28,7 +28,7 @@ void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
                         100 * info->error_estimate);
     else
         used = snprintf(text, DESCRIBE_BYTES, "exact");
-    if (info->method == PE_METHOD_HEMISPHERES)
+    if (info->method == PE_METHOD_HEMISPHERES || info->smoothness.size)
         snprintf(text + used, DESCRIBE_BYTES - (size_t)used, "; lookups %.2g %%", 100 * info->lookup_error);
 }
 
@@ -43,21 +43,31 @@ static void describe_index(const pe_surface *surface)
         printf("index      %g + %g i, %g + %g i, %g + %g i\n", eta[0], k[0], eta[1], k[1], eta[2], k[2]);
 }
 
-void describe_maps(const pe_maps_info *info)
+void describe_images(const pe_maps_info *info, char text[DESCRIBE_BYTES])
 {
-    char accuracy[DESCRIBE_BYTES];
+    if (info->method == PE_METHOD_VOXELS)
+        snprintf(text, DESCRIBE_BYTES, "%d^3 voxels", info->images);
+    else if (info->method == PE_METHOD_LAYERS)
+        snprintf(text, DESCRIBE_BYTES, "%d layers of up to %dx%d", info->images, info->width, info->height);
+    else
+        snprintf(text, DESCRIBE_BYTES, "%d %s of %dx%d", info->images, info->images == 1 ? "map" : "maps", info->width,
+                 info->height);
+}
 
-    describe_accuracy(info, accuracy);
-    printf("method     %s\n", method_name(info->method));
-    if (info->method == PE_METHOD_REPRESENTATIVE)
-        printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
-    if (info->method == PE_METHOD_HEMISPHERES)
-        printf("normals    %d (frequency %d), each with a picture of its hemisphere\n", info->normals, info->frequency);
-    if (info->angles > 1)
-        printf("angles     %d brush directions\n", info->angles);
-    if (info->suns)
-        printf("suns       %d lights kept apart\n", info->suns);
-    printf("images     %d of %dx%d\n", info->images, info->width, info->height);
+static void describe_roughness(const pe_maps_info *info)
+{
+    const pe_smoothness *s = &info->smoothness;
+
+    printf("lobe       phong, about the mirror direction\n");
+    printf("roughness  lambda 0 to 1, exponents up to %.4g (size %d, window %g, levels %g)\n",
+           pe_smoothness_exponent(s, 1), s->size, s->window, s->levels);
+    if (info->threshold > 0)
+        printf("threshold  %g, what is left out %s\n", info->threshold,
+               info->lost == PE_LOST_DARK ? "is missing" : "is made up for");
+}
+
+static void describe_surface(const pe_maps_info *info)
+{
     if (info->surface.ndf.kind == PE_NDF_TABLE)
         printf("ndf        table %s\n", *info->ndf_name ? info->ndf_name : "(no name)");
     else
@@ -69,6 +79,31 @@ void describe_maps(const pe_maps_info *info)
     if (info->surface.weight == PE_WEIGHT_MICROFACET)
         describe_index(&info->surface);
     printf("direction  %g %g %g\n", info->direction[0], info->direction[1], info->direction[2]);
+}
+
+void describe_maps(const pe_maps_info *info)
+{
+    char accuracy[DESCRIBE_BYTES], images[DESCRIBE_BYTES];
+
+    describe_accuracy(info, accuracy);
+    printf("method     %s\n", method_name(info->method));
+    if (info->method == PE_METHOD_REPRESENTATIVE)
+        printf("normals    %d (frequency %d), opposite ones share an image\n", info->normals, info->frequency);
+    if (info->method == PE_METHOD_HEMISPHERES)
+        printf("normals    %d (frequency %d), each with a picture of its hemisphere\n", info->normals, info->frequency);
+    if (info->angles > 1)
+        printf("angles     %d brush directions\n", info->angles);
+    if (info->suns)
+        printf("suns       %d lights kept apart\n", info->suns);
+    if (info->smoothness.size)
+        describe_images(info, images);
+    else
+        snprintf(images, sizeof images, "%d of %dx%d", info->images, info->width, info->height);
+    printf("images     %s\n", images);
+    if (info->smoothness.size)
+        describe_roughness(info);
+    else
+        describe_surface(info);
     printf("source     %s, %dx%d\n", *info->source_name ? info->source_name : "(no name)", info->source_width,
            info->source_height);
     printf("accuracy   %s\n", accuracy);
@@ -100,6 +135,16 @@ void describe_maps_json(json *out, const pe_maps_info *info)
     json_integer(out, "source_width", info->source_width);
     json_integer(out, "source_height", info->source_height);
     json_text(out, "accuracy", info->accuracy == PE_ACCURACY_FAST ? "fast" : "exact");
+    if (info->smoothness.size) {
+        json_integer(out, "size", info->smoothness.size);
+        json_number(out, "window", info->smoothness.window);
+        json_number(out, "levels", info->smoothness.levels);
+        json_number(out, "exponent", pe_smoothness_exponent(&info->smoothness, 1));
+    }
+    if (info->method == PE_METHOD_VOXELS) {
+        json_number(out, "threshold", info->threshold);
+        json_text(out, "lost", info->lost == PE_LOST_DARK ? "dark" : "spread");
+    }
     json_number(out, "error_estimate", info->error_estimate);
     json_number(out, "lookup_error", info->lookup_error);
 }

@@ -11,6 +11,9 @@
 /* "exact", or "fast, an estimated 0.4 % from exact filtering; lookups 0.5 %" */
 void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES]);
 
+/* "42 maps of 400x200", "128^3 voxels". */
+void describe_images(const pe_maps_info *info, char text[DESCRIBE_BYTES]);
+
 /* A table of a label and a value a line, to standard output. */
 void describe_maps(const pe_maps_info *info);
 

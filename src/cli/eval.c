@@ -47,7 +47,8 @@ static void look_up(const pe_point *point, const void *data, double rgb[3])
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)
 {
     const lookup l = { maps, { (pe_interpolation)settings->interpolation, settings->exponent } };
-    const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, QUERY_PLAIN, look_up, &l };
+    const query_form form = pe_maps_have_roughness(maps) ? QUERY_ROUGHNESS : QUERY_PLAIN;
+    const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, form, look_up, &l };
 
     return lines_run(&job);
 }
@@ -79,7 +80,8 @@ const cli_command eval_command = {
     "look maps up for lines of normal and viewer",
     "Reads lines 'nx ny nz ox oy oz' from standard input, the normal and the direction to the viewer, or lines "
     "'nx ny nz ox oy oz dx dy dz', with the brush direction there, none of any particular length, and prints the "
-    "reflected radiance 'R G B' for each, in order. Blank lines and lines that start with # are passed over.",
+    "reflected radiance 'R G B' for each, in order. Of layers and voxels a seventh number is the smoothness lambda. "
+    "Blank lines and lines that start with # are passed over.",
     operands,
     options,
     eval_run,

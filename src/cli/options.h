@@ -14,7 +14,7 @@ typedef enum cli_type {
     CLI_LENGTHS, /* A, which stands for A,A, or A,B; double[2] */
     CLI_VECTOR,  /* X,Y,Z, not all zero; double[3] */
     CLI_TRIPLE,  /* R,G,B, any; double[3] */
-    CLI_SIZE,    /* 400x200; int[2] */
+    CLI_SIZE,    /* 400x200, or 64, which stands for 64x64; int[2] */
     CLI_CHOICE,  /* one of `choices`; int */
     CLI_TEXT     /* any; const char * */
 } cli_type;

@@ -184,6 +184,10 @@ static int store_size(const cli_command *command, const cli_option *option, cons
     errno = 0;
     for (int i = 0; i < 2; i++, c = end + 1) {
         size[i] = strtol(c, &end, 10);
+        if (i == 0 && end > c && *end == '\0') {
+            size[1] = size[0];
+            break;
+        }
         if (end == c || *end != (i == 0 ? 'x' : '\0'))
             return refuse(command, option, text, "width and height are wanted, as in 400x200");
     }
