@@ -158,6 +158,81 @@ static double relative_l2(const pe_maps *a, const pe_maps *b)
     return sqrt(difference / reference);
 }
 
+/* ---- lookups ---- */
+
+#define SIDE 512
+#define ROUNDS 4
+
+static double uniform(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) / 16777216.0 - 0.5;
+}
+
+/* Normal and viewer of every pixel of a sphere, row by row, as a renderer asks; or any, one after the other. */
+static int make_views(int random, pe_point *points)
+{
+    unsigned state = 1;
+    int count = 0;
+
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        int row = k / SIDE;
+        double x = (k % SIDE + 0.5) / SIDE * 2 - 1, y = 1 - (row + 0.5) / SIDE * 2, square = x * x + y * y;
+        pe_point *p = &points[count];
+
+        *p = (pe_point){ .n = { x, y, -sqrt(fmax(1 - square, 0)) }, .o = { 0, 0, -1 } };
+        for (int c = 0; c < 3 && random; c++) {
+            p->n[c] = uniform(&state);
+            p->o[c] = uniform(&state);
+        }
+        count += random || square < 0.99;
+    }
+    return count;
+}
+
+/* A second of one core's time. */
+static double lookup_rate(const pe_maps *maps, pe_interpolation interpolation, int random)
+{
+    const pe_sampling sampling = { .interpolation = interpolation };
+    pe_point *points = malloc(sizeof *points * SIDE * SIDE);
+    double start, sum = 0, seconds;
+    int count;
+
+    if (points == NULL)
+        abort();
+    count = make_views(random, points);
+    start = now(1);
+    for (int round = 0; round < ROUNDS; round++)
+        for (int k = 0; k < count; k++) {
+            double rgb[3];
+
+            pe_sample(maps, &sampling, &points[k], rgb);
+            sum += rgb[0];
+        }
+    seconds = now(1) - start;
+    free(points);
+    return sum > 0 ? ROUNDS * (double)count / seconds : 0;
+}
+
+static void print_lookups(const pe_env *env)
+{
+    const pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, ALPHA, ALPHA, NULL } };
+    pe_maps *ours, *paper;
+    pe_error error;
+    double seconds;
+
+    check(pe_bake(env, &options, &ours, &error), &error);
+    paper = bake(env, 400, 200, PE_ACCURACY_FAST, 0, &seconds);
+    for (int random = 0; random < 2; random++) {
+        const char *views = random ? "random" : "coherent";
+
+        printf("  \"lookups_%s\": %.4g,\n", views, lookup_rate(ours, PE_INTERPOLATION_LINEAR, random));
+        printf("  \"paper_lookups_%s\": %.4g,\n", views, lookup_rate(paper, PE_INTERPOLATION_WEIGHTED, random));
+    }
+    pe_maps_free(ours);
+    pe_maps_free(paper);
+}
+
 int main(int argc, char **argv)
 {
     pe_env *env, *small;
@@ -193,6 +268,7 @@ int main(int argc, char **argv)
     pe_maps_free(fast);
     fflush(stdout);
 
+    print_lookups(env);
     exact = bake(env, 200, 100, PE_ACCURACY_EXACT, 0, &exact_seconds);
     fast = bake(env, 200, 100, PE_ACCURACY_FAST, 0, &fast_seconds);
     printf("  \"exact_200x100_seconds\": %.4g,\n", exact_seconds);

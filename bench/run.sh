@@ -85,6 +85,13 @@ result 'fast bake, 42 x 200x100 from 1024x512' "$ours" s 'exact bake' "$theirs" 
 fact 'its relative L2 error' "$(value bench.json fast_relative_l2)" ''
 fact 'its own estimate of that' "$(value bench.json fast_own_estimate)" ''
 
+for views in coherent random; do
+    ours=$(value bench.json lookups_$views)
+    theirs=$(value bench.json paper_lookups_$views)
+    result "lookups, default maps, $views views" "$ours" '/s a core' "the paper's 42 maps, weighted, a = 50" "$theirs" \
+        "$(ratio "$ours" "$theirs")"
+done
+
 # ---- the command ----
 
 echo 'the lookup ...' >&2

@@ -80,7 +80,8 @@ static pe_status fill_maps(frames *f, pe_error *error)
     if (status != PE_OK)
         return status;
     if (b->info.method == PE_METHOD_HEMISPHERES)
-        status = pe_fill_hemispheres_of_strip(&strip, b->kernel, b->options.threads, &f->report, f->maps, error);
+        status =
+            pe_fill_hemispheres_of_strip(&strip, b->lobe, b->kernel, b->options.threads, &f->report, f->maps, error);
     else
         status =
             pe_fill_pairs_of_strip(&strip, b->kernel, b->lobe, f->suns, b->options.threads, &f->report, f->maps, error);

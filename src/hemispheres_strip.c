@@ -38,29 +38,32 @@ void pe_strip_filter(const pe_strip *strip, const pe_kernel *kernel, const pe_fr
 }
 
 /* Where no light has weight, what a mirror shows. */
-static void reflect_in_mirror(const pe_strip *strip, const pe_frame *frame, const float o[3],
+static void reflect_in_mirror(const pe_strip *strip, const pe_lobe *lobe, const pe_frame *frame, const float o[3],
                               float rgb[PE_STRIP_FRAMES][3])
 {
     const double local[3] = { -(double)o[0], -(double)o[1], (double)o[2] };
+    const double no_sums[4] = { 0 };
     double world[3], shown[3];
 
     pe_frame_direction(frame, local, world);
     for (int k = 0; k < strip->count; k++) {
-        pe_env_lookup(strip->env[k], world, shown);
+        pe_filter_radiance(lobe, strip->env[k], no_sums, world, o, shown);
         for (int c = 0; c < 3; c++)
             rgb[k][c] = (float)shown[c];
     }
 }
 
-void pe_strip_radiance(const pe_strip *strip, const pe_frame *frame, const float o[3], const float sums[PE_STRIP_LANES],
-                       float rgb[PE_STRIP_FRAMES][3])
+void pe_strip_radiance(const pe_strip *strip, const pe_lobe *lobe, const pe_frame *frame, const float o[3],
+                       const float sums[PE_STRIP_LANES], float rgb[PE_STRIP_FRAMES][3])
 {
     float scale = 1 / sums[PE_STRIP_WEIGHT];
 
     if (!(sums[PE_STRIP_WEIGHT] > 0)) {
-        reflect_in_mirror(strip, frame, o, rgb);
+        reflect_in_mirror(strip, lobe, frame, o, rgb);
         return;
     }
+    if (lobe->surface.weight == PE_WEIGHT_MICROFACET)
+        scale *= (float)pe_lobe_albedo(lobe, (const double[3]){ (double)o[0], (double)o[1], (double)o[2] });
     for (int k = 0; k < PE_STRIP_FRAMES; k++)
         for (int c = 0; c < 3; c++)
             rgb[k][c] = sums[3 * k + c] > 0 ? scale * sums[3 * k + c] : 0;
@@ -70,6 +73,7 @@ void pe_strip_radiance(const pe_strip *strip, const pe_frame *frame, const float
 
 typedef struct job {
     const pe_strip *strip;
+    const pe_lobe *lobe;
     const pe_kernel *kernel;
     pe_maps *const *maps;  /* of each frame */
     unsigned char *failed; /* of each pair */
@@ -90,7 +94,7 @@ static void store(int place, const float o[3], const float (*sums)[PE_STRIP_LANE
     for (int side = 0; side < 2; side++) {
         float rgb[PE_STRIP_FRAMES][3];
 
-        pe_strip_radiance(j->strip, &p->frames[side], o, sums[side], rgb);
+        pe_strip_radiance(j->strip, j->lobe, &p->frames[side], o, sums[side], rgb);
         for (int k = 0; k < j->strip->count; k++)
             memcpy(pe_maps_image_to_fill(j->maps[k], p->images[side]) + 3 * place, rgb[k], sizeof rgb[k]);
     }
@@ -115,11 +119,11 @@ static void filter_pair(size_t index, void *data)
             pe_disc_continue(&j->maps[k]->disc, pe_maps_image_to_fill(j->maps[k], image), 3);
 }
 
-pe_status pe_fill_hemispheres_of_strip(const pe_strip *strip, const pe_kernel *kernel, int threads, pe_report *report,
-                                       pe_maps *const *maps, pe_error *error)
+pe_status pe_fill_hemispheres_of_strip(const pe_strip *strip, const pe_lobe *lobe, const pe_kernel *kernel, int threads,
+                                       pe_report *report, pe_maps *const *maps, pe_error *error)
 {
     size_t pairs = ((size_t)maps[0]->info.images + 1) / 2;
-    job j = { strip, kernel, maps, calloc(pairs, sizeof *j.failed) };
+    job j = { strip, lobe, kernel, maps, calloc(pairs, sizeof *j.failed) };
     pe_status status;
 
     if (!j.failed)

@@ -9,8 +9,8 @@
 
 /* What pe_fill_hemispheres_by_kernel does, approximately, for every frame of a strip; maps[k] is frame k's.  Each
  * frame's have the same bits whatever the others are. */
-pe_status pe_fill_hemispheres_of_strip(const pe_strip *strip, const pe_kernel *kernel, int threads, pe_report *report,
-                                       pe_maps *const *maps, pe_error *error);
+pe_status pe_fill_hemispheres_of_strip(const pe_strip *strip, const pe_lobe *lobe, const pe_kernel *kernel, int threads,
+                                       pe_report *report, pe_maps *const *maps, pe_error *error);
 
 /* ---- in steps ---- */
 
@@ -27,7 +27,7 @@ void pe_strip_filter(const pe_strip *strip, const pe_kernel *kernel, const pe_fr
                      const pe_strip_cells *cells, pe_kernel_lanes *function, void *data);
 
 /* What the viewer o sees in each frame, from one normal's sums. */
-void pe_strip_radiance(const pe_strip *strip, const pe_frame *frame, const float o[3], const float sums[PE_STRIP_LANES],
-                       float rgb[PE_STRIP_FRAMES][3]);
+void pe_strip_radiance(const pe_strip *strip, const pe_lobe *lobe, const pe_frame *frame, const float o[3],
+                       const float sums[PE_STRIP_LANES], float rgb[PE_STRIP_FRAMES][3]);
 
 #endif

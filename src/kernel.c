@@ -1,5 +1,7 @@
 /* kernel.c - see kernel.h.
  *
+ * A cell has one weight, D, or, for PE_WEIGHT_MICROFACET, four: D G2, and that times F of each channel.
+ *
  * Of a texel's kernel, a window about the mirror direction is evaluated and turned into spline coefficients; in each of
  * its rows, what is not negligible is kept, as a span. */
 #include "kernel.h"
@@ -15,12 +17,12 @@
 /* Half vectors of a density below exp(-LIMIT) of the greatest do not count. */
 #define LIMIT 14.0
 #define SLOPE_MAX 100.0 /* where a density never falls so low */
-/* Coefficients below this share of the greatest are left out. */
+/* Coefficients below this share of the greatest are left out; of several weights, the first decides. */
 #define NEGLIGIBLE 1e-5
 
 typedef struct span {
     int cell, count; /* neighbours in a row of cells */
-    size_t weights;  /* place of the first one's */
+    size_t weights;  /* number of the first one's, of `terms` each */
 } span;
 
 typedef struct texel {
@@ -38,9 +40,13 @@ typedef struct row {
     int failed;
 } row;
 
+enum { TERMS = 4 };
+
 struct pe_kernel {
     const pe_lobe *lobe; /* while it is made */
     pe_disc map, cells;
+    int terms;       /* weights of each cell: 1 or TERMS */
+    float *lambda;   /* while it is made, of TERMS: Lambda of each cell */
     double reach[2]; /* the slopes along t and b that count */
     row *rows;
 };
@@ -49,12 +55,14 @@ struct pe_kernel {
 
 #define PITCH 0.25 /* of alpha, for an error of PITCH_ERROR, which goes with its fourth power */
 #define PITCH_ERROR 0.002
-#define PITCH_MIN 0.15
+#define MICROFACET_ERROR 3.0 /* times as large: G2 has a crease on the horizon */
+#define PITCH_MIN 0.12
 #define PITCH_MAX 0.42
 
 pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted)
 {
-    double pitch = PITCH * pow(wanted / PITCH_ERROR, 0.25), fineness[2];
+    double scale = lobe->surface.weight == PE_WEIGHT_MICROFACET ? MICROFACET_ERROR : 1;
+    double pitch = PITCH * pow(wanted / (scale * PITCH_ERROR), 0.25), fineness[2];
 
     pitch = fmin(fmax(pitch, PITCH_MIN), PITCH_MAX);
     pe_ndf_fineness(&lobe->surface.ndf, fineness);
@@ -65,14 +73,19 @@ pe_disc pe_kernel_cells(const pe_lobe *lobe, double wanted)
 #define BYTES_MAX 5e8
 #define SPAN_CELLS 600.0 /* that a lobe covers */
 #define CELLS_MAX 1e6    /* each thread holds 64 bytes of each */
-#define WIDE_CELLS_MAX 1e4
+#define WIDE_CELLS_MAX 1.6e4
+
+static int terms_of(const pe_lobe *lobe)
+{
+    return lobe->surface.weight == PE_WEIGHT_MICROFACET ? TERMS : 1;
+}
 
 int pe_kernel_suits(const pe_lobe *lobe, const pe_disc *cells, int width, int height)
 {
     /* What is not Gaussian may cover all cells. */
     int is_narrow = lobe->surface.ndf.kind == PE_NDF_BECKMANN;
 
-    return lobe->surface.weight == PE_WEIGHT_NDF && 0.8 * width * height * SPAN_CELLS * sizeof(float) < BYTES_MAX &&
+    return 0.8 * width * height * SPAN_CELLS * terms_of(lobe) * sizeof(float) < BYTES_MAX &&
            (double)cells->width * cells->height < (is_narrow ? CELLS_MAX : WIDE_CELLS_MAX);
 }
 
@@ -114,19 +127,22 @@ static void mirror_point(const double o[3], const double h[3], double point[2])
     point[1] = w[1] * scale;
 }
 
-#define RIM 24 /* half vectors around the lobe */
+enum { RIM = 24, RINGS = 4 }; /* half vectors around the lobe */
+#define REACH_OF_ALL 1.5      /* reflects to everywhere */
 
-/* The cells that may matter: those about the lights that half vectors on the lobe's rim reflect to the viewer, widened
- * by a part, and a few more for the spline. */
+/* The cells that may matter: those about the lights that half vectors on the lobe's rim reflect to the viewer, and on
+ * rings within, for the rim's may be below the horizon and beyond; widened by a part, and a few more for the spline. */
 static pe_rect window_of(const pe_kernel *k, const double o[3])
 {
     double centre[2], extent[2] = { 0, 0 }, middle[2];
     static const double straight[3] = { 0, 0, 1 };
 
+    if (fmax(k->reach[0], k->reach[1]) > REACH_OF_ALL)
+        return (pe_rect){ 0, 0, k->cells.width, k->cells.height };
     mirror_point(o, straight, centre);
-    for (int i = 0; i < RIM; i++) {
-        double angle = 2 * M_PI * i / RIM, point[2];
-        const double h[3] = { k->reach[0] * cos(angle), k->reach[1] * sin(angle), 1 };
+    for (int i = 0; i < RIM * RINGS; i++) {
+        double angle = 2 * M_PI * i / (RIM * RINGS), ring = (i % RINGS + 1.0) / RINGS, point[2];
+        const double h[3] = { ring * k->reach[0] * cos(angle), ring * k->reach[1] * sin(angle), 1 };
 
         mirror_point(o, h, point);
         for (int c = 0; c < 2; c++)
@@ -143,18 +159,60 @@ static pe_rect window_of(const pe_kernel *k, const double o[3])
                       (int)fmin(k->cells.height, middle[1] + extent[1] + 1) };
 }
 
+/* F of a channel of the lobe, o.h = c: filter.c has the same. */
+static float reflectance(const pe_lobe *lobe, int channel, double c)
+{
+    const float *terms = lobe->reflectance[channel];
+    float x = (float)(2 * c * (1 + (double)lobe->knee) / (c + (double)lobe->knee) - 1), f;
+
+    f = terms[PE_REFLECTANCE_TERMS - 1];
+    for (int k = PE_REFLECTANCE_TERMS - 2; k >= 0; k--)
+        f = f * x + terms[k];
+    return f;
+}
+
+/* The four weights of a cell, of the D given.  G2 falls to 0 on the horizon, and goes on below as it came. */
+static void scatter(const pe_kernel *k, const double o[3], float lambda_o, int cell, const double w[3], float d,
+                    float weights[TERMS])
+{
+    double c = sqrt(fmax(0.5 * (1 + pe_dot(o, w)), 0));
+
+    weights[0] = (w[2] < 0 ? -d : d) / (1 + lambda_o + k->lambda[cell]);
+    for (int channel = 0; channel < 3; channel++)
+        weights[1 + channel] = weights[0] != 0 ? weights[0] * reflectance(k->lobe, channel, c) : 0;
+}
+
 static void fill_window(const pe_kernel *k, const pe_rect *window, const double o[3], float *values)
 {
     int width = window->right - window->left, height = window->bottom - window->top;
+    float lambda_o = k->lambda ? (float)pe_ndf_lambda(&k->lobe->surface.ndf, o) : 0;
 
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
+            int column = window->left + x, line = window->top + y;
+            float *weights = values + k->terms * (y * width + x);
             double w[3];
 
-            cell_direction(&k->cells, window->left + x, window->top + y, w);
-            values[y * width + x] = density(k, o, w);
+            cell_direction(&k->cells, column, line, w);
+            weights[0] = density(k, o, w);
+            if (k->lambda)
+                scatter(k, o, lambda_o, line * k->cells.width + column, w, weights[0], weights);
         }
-    pe_spline_coefficients(values, width, height, 1);
+    pe_spline_coefficients(values, width, height, k->terms);
+}
+
+/* Of a cell below the horizon, that of its mirror image. */
+static int make_lambda(pe_kernel *k)
+{
+    k->lambda = malloc((size_t)k->cells.width * (size_t)k->cells.height * sizeof *k->lambda);
+    for (int cell = 0; k->lambda && cell < k->cells.width * k->cells.height; cell++) {
+        double w[3];
+
+        cell_direction(&k->cells, cell % k->cells.width, cell / k->cells.width, w);
+        w[2] = fmax(fabs(w[2]), PE_HORIZON);
+        k->lambda[cell] = (float)pe_ndf_lambda(&k->lobe->surface.ndf, w);
+    }
+    return k->lambda != NULL;
 }
 
 /* Room for `more` elements; false if there is no memory. */
@@ -173,24 +231,28 @@ static int make_room(void **array, size_t *room, size_t needed, size_t size)
 }
 
 /* What is not negligible of a row of the window. */
-static void keep_span(row *r, int cell, const float *values, int width, float least)
+static void keep_span(row *r, int terms, int cell, const float *values, int width, float least)
 {
     int first = 0, last = width - 1;
+    int count;
 
-    while (first < width && !(fabsf(values[first]) > least))
+    while (first < width && !(fabsf(values[first * terms]) > least))
         first++;
-    while (last > first && !(fabsf(values[last]) > least))
+    while (last > first && !(fabsf(values[last * terms]) > least))
         last--;
     if (first > last)
         return;
     if (!make_room((void **)&r->spans, &r->span_room, r->span_count + 1, sizeof *r->spans) ||
-        !make_room((void **)&r->weights, &r->weight_room, r->weight_count + (size_t)width, sizeof *r->weights)) {
+        !make_room((void **)&r->weights, &r->weight_room, (r->weight_count + (size_t)width) * (size_t)terms,
+                   sizeof *r->weights)) {
         r->failed = 1;
         return;
     }
-    r->spans[r->span_count++] = (span){ cell + first, last - first + 1, r->weight_count };
-    memcpy(r->weights + r->weight_count, values + first, (size_t)(last - first + 1) * sizeof *values);
-    r->weight_count += (size_t)(last - first + 1);
+    count = last - first + 1;
+    r->spans[r->span_count++] = (span){ cell + first, count, r->weight_count };
+    memcpy(r->weights + (size_t)terms * r->weight_count, values + first * terms,
+           (size_t)count * (size_t)terms * sizeof *values);
+    r->weight_count += (size_t)count;
 }
 
 static void keep_window(const pe_kernel *k, const pe_rect *window, const float *values, row *r)
@@ -199,9 +261,9 @@ static void keep_window(const pe_kernel *k, const pe_rect *window, const float *
     float greatest = 0;
 
     for (int i = 0; i < width * height; i++)
-        greatest = fmaxf(greatest, fabsf(values[i]));
+        greatest = fmaxf(greatest, fabsf(values[i * k->terms]));
     for (int y = 0; y < height && !r->failed; y++)
-        keep_span(r, (window->top + y) * k->cells.width + window->left, values + y * width, width,
+        keep_span(r, k->terms, (window->top + y) * k->cells.width + window->left, values + y * width * k->terms, width,
                   (float)NEGLIGIBLE * greatest);
 }
 
@@ -221,7 +283,7 @@ static void make_row(size_t y, void *data)
 {
     pe_kernel *k = data;
     row *r = &k->rows[y];
-    float *values = malloc((size_t)k->cells.width * (size_t)k->cells.height * sizeof *values);
+    float *values = malloc((size_t)k->cells.width * (size_t)k->cells.height * (size_t)k->terms * sizeof *values);
 
     r->texels = malloc((size_t)k->map.width * sizeof *r->texels);
     r->failed = !values || !r->texels;
@@ -257,7 +319,12 @@ pe_status pe_kernel_make(const pe_lobe *lobe, const pe_disc *map, const pe_disc 
     k->lobe = lobe;
     k->map = *map;
     k->cells = *cells;
+    k->terms = terms_of(lobe);
     set_reach(k);
+    if (k->terms > 1 && !make_lambda(k)) {
+        pe_kernel_free(k);
+        return pe_fail_memory(error, "a kernel");
+    }
     k->rows = calloc((size_t)map->height, sizeof *k->rows);
     if (k->rows)
         status = pe_parallel_for((size_t)map->height, threads, make_row, k, report);
@@ -281,6 +348,7 @@ void pe_kernel_free(pe_kernel *k)
         free(k->rows[y].weights);
     }
     free(k->rows);
+    free(k->lambda);
     free(k);
 }
 
@@ -343,65 +411,96 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
     }
 }
 
+/* How the lanes of a cell are weighed: all by one weight, or, of four, by that of the weight itself or of the channel,
+ * in the order of a group's normals, or of a strip's frames. */
+typedef enum order { ONE_WEIGHT, OF_GROUP, OF_STRIP } order;
+
+typedef float quad __attribute__((vector_size(16)));
+
+INLINE void load_weight(order lanes, const float *weights, size_t cell, floats *weight)
+{
+    quad four;
+
+    if (lanes == ONE_WEIGHT) {
+        *weight = weights[cell] - (floats){ 0 };
+        return;
+    }
+    memcpy(&four, weights + TERMS * cell, sizeof four);
+    if (lanes == OF_GROUP)
+        *weight = __builtin_shufflevector(four, four, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+    else
+        *weight = __builtin_shufflevector(four, four, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 0);
+}
+
 /* A texel's sums over one or two grids of cells, which share the reading of its weights; each by way of four partial
  * sums, so that none waits for the one before it. */
-INLINE void sum_cells(int grids, const row *r, const texel *t, const float *const cells[2], floats out[2])
+INLINE void sum_cells(order lanes, int grids, const row *r, const texel *t, const float *const cells[2], floats out[2])
 {
     floats sums[2][4] = { { { 0 } } };
 
     for (size_t s = t->spans; s < t->spans + t->span_count; s++) {
-        const float *weights = r->weights + r->spans[s].weights;
-        size_t first = (size_t)r->spans[s].cell * LANES;
+        size_t weight = r->spans[s].weights, first = (size_t)r->spans[s].cell * LANES;
         int count = r->spans[s].count, k = 0;
+        floats w;
 
         for (; k + 4 <= count; k += 4)
-            for (int i = 0; i < 4; i++)
+            for (int i = 0; i < 4; i++) {
+                load_weight(lanes, r->weights, weight + (size_t)(k + i), &w);
                 for (int g = 0; g < grids; g++)
-                    sums[g][i] += weights[k + i] * load(cells[g] + first + (size_t)(k + i) * LANES);
-        for (; k < count; k++)
+                    sums[g][i] += w * load(cells[g] + first + (size_t)(k + i) * LANES);
+            }
+        for (; k < count; k++) {
+            load_weight(lanes, r->weights, weight + (size_t)k, &w);
             for (int g = 0; g < grids; g++)
-                sums[g][0] += weights[k] * load(cells[g] + first + (size_t)k * LANES);
+                sums[g][0] += w * load(cells[g] + first + (size_t)k * LANES);
+        }
     }
     for (int g = 0; g < grids; g++)
         out[g] = (sums[g][0] + sums[g][1]) + (sums[g][2] + sums[g][3]);
 }
 
-CLONES static void sum_texel(const row *r, const texel *t, const float *cells, floats *out)
-{
-    const float *const both[2] = { cells, cells };
+typedef void sum_function(const row *r, const texel *t, const float *const cells[2], floats out[2]);
 
-    sum_cells(1, r, t, both, out);
-}
+#define SUM(name, lanes, grids) \
+    CLONES static void name(const row *r, const texel *t, const float *const cells[2], floats out[2]) \
+    { \
+        sum_cells(lanes, grids, r, t, cells, out); \
+    }
 
-CLONES static void sum_texel_twice(const row *r, const texel *t, const float *const cells[2], floats out[2])
-{
-    sum_cells(2, r, t, cells, out);
-}
+SUM(sum_group, ONE_WEIGHT, 1)
+SUM(sum_group_of_four, OF_GROUP, 1)
+SUM(sum_strips, ONE_WEIGHT, 2)
+SUM(sum_strips_of_four, OF_STRIP, 2)
 
 void pe_kernel_apply(const pe_kernel *k, const float *cells, pe_kernel_texel *function, void *data)
 {
+    sum_function *sum = k->terms > 1 ? sum_group_of_four : sum_group;
+    const float *const grids[2] = { cells, cells };
+
     for (int y = 0; y < k->map.height; y++)
         for (size_t x = 0; x < k->rows[y].texel_count; x++) {
             const texel *t = &k->rows[y].texels[x];
             double sums[PE_KERNEL_GROUP][4];
-            floats sum[2];
+            floats sums_of_lanes[2];
 
-            sum_texel(&k->rows[y], t, cells, sum);
+            sum(&k->rows[y], t, grids, sums_of_lanes);
             for (int lane = 0; lane < LANES; lane++)
-                sums[lane / 4][lane % 4] = (double)sum[0][lane];
+                sums[lane / 4][lane % 4] = (double)sums_of_lanes[0][lane];
             function(t->place, t->o, (const double(*)[4])sums, data);
         }
 }
 
 void pe_kernel_apply_twice(const pe_kernel *k, const float *const cells[2], pe_kernel_lanes *function, void *data)
 {
+    sum_function *sum = k->terms > 1 ? sum_strips_of_four : sum_strips;
+
     for (int y = 0; y < k->map.height; y++)
         for (size_t x = 0; x < k->rows[y].texel_count; x++) {
             const texel *t = &k->rows[y].texels[x];
             float lanes[2][LANES];
             floats sums[2];
 
-            sum_texel_twice(&k->rows[y], t, cells, sums);
+            sum(&k->rows[y], t, cells, sums);
             for (int g = 0; g < 2; g++)
                 memcpy(lanes[g], &sums[g], sizeof lanes[g]);
             function(t->place, t->o, (const float(*)[LANES])lanes, data);

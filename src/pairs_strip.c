@@ -38,7 +38,7 @@ static void store(int place, const float o[3], const float (*sums)[PE_STRIP_LANE
         float rgb[PE_STRIP_FRAMES][3] = { { 0 } };
         float *lanes = i->sides[side] + (size_t)PE_STRIP_LANES * (size_t)place;
 
-        pe_strip_radiance(i->job->strip, &i->frames[side], o, sums[side], rgb);
+        pe_strip_radiance(i->job->strip, i->job->lobe, &i->frames[side], o, sums[side], rgb);
         memcpy(lanes, rgb, sizeof rgb);
         lanes[PE_STRIP_WEIGHT] = 0;
     }
@@ -187,6 +187,21 @@ static void add_suns(const image *i, const pe_suns *suns, const pe_frame *frame,
     }
 }
 
+/* One by one: of microfacets. */
+static void add_scattered_suns(const image *i, const pe_suns *suns, const pe_frame *frame, const side_row *r,
+                               float *row)
+{
+    for (int k = 0; k < r->count && suns->count; k++) {
+        const double local[3] = { (double)r->o[0][k], (double)r->o[1][k], (double)r->o[2][k] };
+        double o[3], rgb[3] = { 0, 0, 0 };
+
+        pe_frame_direction(frame, local, o);
+        pe_suns_add(suns, &i->job->lobe->surface, NULL, i->job->maps[0]->info.direction, frame->n, o, rgb);
+        for (int c = 0; c < 3; c++)
+            row[3 * r->column[k] + c] += (float)rgb[c];
+    }
+}
+
 static float positive(float value)
 {
     return value > 0 ? value : 0;
@@ -200,7 +215,10 @@ static void store_frame(const image *i, int frame, const side_row sides[2], floa
         for (int k = 0; k < r->count; k++)
             for (int c = 0; c < 3; c++)
                 row[3 * r->column[k] + c] = positive(r->lanes[LANES * (size_t)k + (size_t)(3 * frame + c)]);
-        add_suns(i, &i->job->suns[frame], &i->frames[side], r, row);
+        if (i->job->lobe->surface.weight == PE_WEIGHT_NDF)
+            add_suns(i, &i->job->suns[frame], &i->frames[side], r, row);
+        else
+            add_scattered_suns(i, &i->job->suns[frame], &i->frames[side], r, row);
     }
 }
 
@@ -302,7 +320,7 @@ pe_status pe_fill_pairs_of_strip(const pe_strip *strip, const pe_kernel *kernel,
     job j = { strip, kernel, *pe_kernel_map(kernel), lobe, suns, NULL, maps, NULL };
     pe_status status = PE_OK;
 
-    if (any_suns(strip, suns))
+    if (lobe->surface.weight == PE_WEIGHT_NDF && any_suns(strip, suns))
         status = pe_denominator_make(&lobe->surface.ndf, &j.denominator, error);
     if (status != PE_OK)
         return status;

@@ -157,7 +157,7 @@ INLINE void taps_along(int side, const floats *point, ints *tap, float (*shares)
     memcpy(&shares[3][at], &w, sizeof w);
 }
 
-INLINE void along(const double axis[3], const floats *x, const floats *y, const floats *z, floats *out)
+INLINE void project(const double axis[3], const floats *x, const floats *y, const floats *z, floats *out)
 {
     *out = (float)axis[0] * *x + (float)axis[1] * *y + (float)axis[2] * *z;
 }
@@ -168,9 +168,9 @@ INLINE void place_lights(const queue *q, places *p)
         floats x = load(q->x + k), y = load(q->y + k), z = load(q->z + k), t, b, up;
         ints column, row;
 
-        along(q->frame->t, &x, &y, &z, &t);
-        along(q->frame->b, &x, &y, &z, &b);
-        along(q->frame->n, &x, &y, &z, &up);
+        project(q->frame->t, &x, &y, &z, &t);
+        project(q->frame->b, &x, &y, &z, &b);
+        project(q->frame->n, &x, &y, &z, &up);
         up = (floats)((ints)up & (up > 0));
         up += 1;
         square_root(&up);

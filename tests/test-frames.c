@@ -80,7 +80,8 @@ static double relative_error(const pe_maps *got, const pe_maps *exact, double co
     return sqrt(error2 / norm2);
 }
 
-static void test_error(const char *name, const pe_env *env, pe_method method, double alpha_x, double alpha_y)
+static void test_error(const char *name, const pe_env *env, pe_method method, pe_weight weight, double alpha_x,
+                       double alpha_y)
 {
     pe_bake_options options = { .method = method,
                                 .surface.ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL },
@@ -88,11 +89,15 @@ static void test_error(const char *name, const pe_env *env, pe_method method, do
                                 .width = method == PE_METHOD_HEMISPHERES ? 44 : 80,
                                 .height = method == PE_METHOD_HEMISPHERES ? 44 : 40,
                                 .accuracy = PE_ACCURACY_FAST };
-    pe_baker *baker = make_baker(env, &options);
+    pe_baker *baker;
     pe_maps *got, *alone, *exact;
     double error, alone_error;
     pe_error why;
 
+    options.surface.weight = weight;
+    if (weight == PE_WEIGHT_MICROFACET)
+        pe_material("copper", options.surface.eta, options.surface.k);
+    baker = make_baker(env, &options);
     bake_frames(baker, &env, 1, &got);
     need(pe_bake(env, &options, &alone, &why) == PE_OK, "%s", why.message);
     options.accuracy = PE_ACCURACY_EXACT;
@@ -100,8 +105,9 @@ static void test_error(const char *name, const pe_env *env, pe_method method, do
     error = relative_error(got, exact, 0.15);
     alone_error = relative_error(alone, exact, 0.15);
     ok(error <= ERROR_MAX && error < 2 * alone_error + 0.001,
-       "%s, %s, alpha %g, %g: within %.3f %% (%.3f %% with grazing); alone %.3f %% (%.3f %%)", name,
-       method == PE_METHOD_HEMISPHERES ? "hemispheres" : "lat-long", alpha_x, alpha_y, 100 * error,
+       "%s, %s%s, alpha %g, %g: within %.3f %% (%.3f %% with grazing); alone %.3f %% (%.3f %%)", name,
+       method == PE_METHOD_HEMISPHERES ? "hemispheres" : "lat-long",
+       weight == PE_WEIGHT_MICROFACET ? ", microfacets" : "", alpha_x, alpha_y, 100 * error,
        100 * relative_error(got, exact, 0), 100 * alone_error, 100 * relative_error(alone, exact, 0));
     pe_maps_free(got);
     pe_maps_free(alone);
@@ -127,9 +133,11 @@ static void test_suns(void)
 {
     pe_env *env = make_suns(17);
 
-    test_error("noise with six suns", env, PE_METHOD_REPRESENTATIVE, 0.1, 0.1);
-    test_error("noise with six suns", env, PE_METHOD_HEMISPHERES, 0.1, 0.03);
-    test_error("noise with six suns", env, PE_METHOD_REPRESENTATIVE, 0.6, 0.6);
+    test_error("noise with six suns", env, PE_METHOD_REPRESENTATIVE, PE_WEIGHT_NDF, 0.1, 0.1);
+    test_error("noise with six suns", env, PE_METHOD_HEMISPHERES, PE_WEIGHT_NDF, 0.1, 0.03);
+    test_error("noise with six suns", env, PE_METHOD_REPRESENTATIVE, PE_WEIGHT_NDF, 0.6, 0.6);
+    test_error("noise with six suns", env, PE_METHOD_REPRESENTATIVE, PE_WEIGHT_MICROFACET, 0.1, 0.1);
+    test_error("noise with six suns", env, PE_METHOD_HEMISPHERES, PE_WEIGHT_MICROFACET, 0.1, 0.1);
     pe_env_free(env);
 }
 
@@ -145,11 +153,11 @@ static void test_hdri(const char *name)
         ok(1, "%s # SKIP %s", name, error.message);
         return;
     }
-    test_error(name, env, PE_METHOD_REPRESENTATIVE, 0.1, 0.1);
-    test_error(name, env, PE_METHOD_HEMISPHERES, 0.1, 0.1);
+    test_error(name, env, PE_METHOD_REPRESENTATIVE, PE_WEIGHT_NDF, 0.1, 0.1);
+    test_error(name, env, PE_METHOD_HEMISPHERES, PE_WEIGHT_NDF, 0.1, 0.1);
     if (strcmp(name, "city") == 0) {
-        test_error(name, env, PE_METHOD_HEMISPHERES, 0.03, 0.03);
-        test_error(name, env, PE_METHOD_REPRESENTATIVE, 0.2, 0.02);
+        test_error(name, env, PE_METHOD_HEMISPHERES, PE_WEIGHT_NDF, 0.03, 0.03);
+        test_error(name, env, PE_METHOD_REPRESENTATIVE, PE_WEIGHT_NDF, 0.2, 0.02);
     }
     pe_env_free(env);
 }

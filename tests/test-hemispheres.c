@@ -1,7 +1,7 @@
 /* test-hemispheres.c - claims: every texel of a hemisphere is the naive reference's; suns drawn out come back exact;
- * the kernel agrees with the loop over lights that it stands for, and any number of threads gives the same bytes; a
- * white furnace is 1 everywhere; lookups are continuous; a brush direction given at each point costs less than half as
- * much error again as one that the file fixes; a file keeps all that. */
+ * the kernel agrees with the loop over lights that it stands for, of D and of microfacets, and any number of threads
+ * gives the same bytes; a white furnace is 1 everywhere; lookups are continuous; a brush direction given at each point
+ * costs less than half as much error again as one that the file fixes; a file keeps all that. */
 #include "hemispheres.h"
 #include "ndf.h"
 #include "reference.h"
@@ -270,10 +270,10 @@ static difference compare_maps(const pe_maps *a, const pe_maps *b)
     return d;
 }
 
-static pe_maps *make_maps(const pe_ndf *ndf)
+static pe_maps *make_maps(const pe_surface *surface)
 {
     pe_maps_info info = { .method = PE_METHOD_HEMISPHERES,
-                          .surface.ndf = *ndf,
+                          .surface = *surface,
                           .direction = { aslant[0], aslant[1], aslant[2] },
                           .normals = 12,
                           .angles = 1,
@@ -286,17 +286,21 @@ static pe_maps *make_maps(const pe_ndf *ndf)
 }
 
 /* Filled from the same lights by kernel and by loop: relative L2 below what the kernel is asked for. */
-static void test_kernel(pe_ndf_kind kind, double alpha_x, double alpha_y, double wanted)
+static void test_kernel(pe_weight weight, pe_ndf_kind kind, double alpha_x, double alpha_y, double wanted)
 {
-    const pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL } };
+    pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL }, .weight = weight };
     pe_env *env = make_env(64, 32, reference_noise(64, 32, 10));
-    pe_maps *by_loop = make_maps(&surface.ndf), *by_kernel = make_maps(&surface.ndf);
+    pe_maps *by_loop, *by_kernel;
     pe_kernel *kernel = NULL;
     pe_lobe *lobe = NULL;
     pe_cloud cloud;
     pe_disc cells;
     difference d;
 
+    if (weight == PE_WEIGHT_MICROFACET)
+        pe_material("copper", surface.eta, surface.k);
+    by_loop = make_maps(&surface);
+    by_kernel = make_maps(&surface);
     need(pe_lobe_make(&surface, 2, &lobe, NULL) == PE_OK && pe_cloud_from_env(env, &cloud, NULL) == PE_OK, "lobe");
     cells = pe_kernel_cells(lobe, wanted);
     need(pe_kernel_make(lobe, &by_kernel->disc, &cells, 2, NULL, &kernel, NULL) == PE_OK &&
@@ -304,8 +308,8 @@ static void test_kernel(pe_ndf_kind kind, double alpha_x, double alpha_y, double
              pe_fill_hemispheres(&cloud, lobe, pe_lobe_reach(lobe, PE_LOBE_CUTOFF), 2, NULL, by_loop, NULL) == PE_OK,
          "fill");
     d = compare_maps(by_kernel, by_loop);
-    ok(relative(&d) < wanted, "kernel, %s, alpha %g, %g, asked for %g: within %.2e of the loop, worst %.1e",
-       kinds[kind], alpha_x, alpha_y, wanted, relative(&d), d.worst);
+    ok(relative(&d) < wanted, "kernel, %s, %s, alpha %g, %g, asked for %g: within %.2e of the loop, worst %.1e",
+       weight == PE_WEIGHT_NDF ? "ndf" : "microfacet", kinds[kind], alpha_x, alpha_y, wanted, relative(&d), d.worst);
     pe_kernel_free(kernel);
     pe_cloud_free(&cloud);
     pe_lobe_free(lobe);
@@ -621,10 +625,13 @@ int main(void)
     test_suns(PE_NDF_BECKMANN, 0.2, 0.2, 0.006, 0.002);
     test_suns(PE_NDF_BECKMANN, 0.4, 0.2, 0.006, 0.002);
     test_suns(PE_NDF_GGX, 0.2, 0.2, 0.015, 0.005);
-    test_kernel(PE_NDF_BECKMANN, 0.3, 0.3, 0.002);
-    test_kernel(PE_NDF_BECKMANN, 0.4, 0.2, 0.002);
-    test_kernel(PE_NDF_BECKMANN, 0.3, 0.3, 0.0005);
-    test_kernel(PE_NDF_GGX, 0.4, 0.4, 0.002);
+    test_kernel(PE_WEIGHT_NDF, PE_NDF_BECKMANN, 0.3, 0.3, 0.002);
+    test_kernel(PE_WEIGHT_NDF, PE_NDF_BECKMANN, 0.4, 0.2, 0.002);
+    test_kernel(PE_WEIGHT_NDF, PE_NDF_BECKMANN, 0.3, 0.3, 0.0005);
+    test_kernel(PE_WEIGHT_NDF, PE_NDF_GGX, 0.4, 0.4, 0.002);
+    test_kernel(PE_WEIGHT_MICROFACET, PE_NDF_BECKMANN, 0.3, 0.3, 0.002);
+    test_kernel(PE_WEIGHT_MICROFACET, PE_NDF_BECKMANN, 0.4, 0.2, 0.0005);
+    test_kernel(PE_WEIGHT_MICROFACET, PE_NDF_GGX, 0.4, 0.4, 0.002);
     test_threads(PE_ACCURACY_EXACT);
     test_threads(PE_ACCURACY_FAST);
     test_furnaces();
