@@ -528,7 +528,7 @@ typedef struct pe_bake_errors {
 pe_status pe_baker_bake(const pe_baker *baker, const pe_env *env, const pe_bake_errors *errors, pe_maps **maps,
                         pe_error *error);
 
-/* The maps of up to PE_FRAMES_MAX environments at once, which takes far less time than one after the other: their lights
+/* The maps of up to PE_FRAMES_MAX environments at once, in far less time than one after the other: their lights
  * are gathered at places that are the same for all.  The maps of each have the same bits in whatever company, and other
  * bits than pe_baker_bake's, within the same error.  errors: NULL, and those of the first are estimated and recorded
  * for all.  Bakers that cannot do so - exact ones, baseline's, and what is too large or too wide for it - bake them one
