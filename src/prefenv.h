@@ -577,6 +577,9 @@ typedef enum pe_interpolation {
 typedef struct pe_sampling {
     pe_interpolation interpolation;
     double exponent; /* Eq. 7's a, for weighted; 0: 50 (f / 2)^2 */
+    /* Of layers and voxels, which hold whole lobes: DARK takes the share of even light that the surface lets through, MEAN
+     * and IGNORED take all.  Other maps know of the horizon by themselves. */
+    pe_horizon horizon;
 } pe_sampling;
 
 /* A point of a surface that is looked at.  n, o and direction are of any length but zero; if o lies behind the surface,

@@ -3,6 +3,7 @@
  * Nearest [Fig. 4a], weighted [Eq. 7], or linear - barycentric over the geodesic triangle that holds n, which needs
  * three lookups, is exact at every n_k and continuous between. */
 #include "sample.h"
+#include "horizon.h"
 
 int pe_nearest_vertex(const pe_maps *maps, const double n[3])
 {
@@ -66,9 +67,17 @@ void pe_visit_normals(const pe_maps *maps, const pe_sampling *sampling, const do
     }
 }
 
+/* What of the lobe the surface lets through, were the light of all of it alike. */
+static void hide_below(const pe_maps *maps, const pe_view *view, double lambda, double rgb[3])
+{
+    double exponent = pe_smoothness_exponent(&maps->info.smoothness, lambda);
+
+    pe_scale(pe_visible_share(exponent, pe_dot(view->n, view->r)), rgb, rgb);
+}
+
 void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point *point, double rgb[3])
 {
-    static const pe_sampling defaults = { PE_INTERPOLATION_DEFAULT, 0 };
+    static const pe_sampling defaults = { PE_INTERPOLATION_DEFAULT, 0, PE_HORIZON_IGNORED };
     pe_view view = { .direction = maps->info.angles > 1 ? point->direction : NULL };
 
     pe_normalize_any(point->n, view.n);
@@ -92,4 +101,6 @@ void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point 
         pe_sample_voxels(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
         break;
     }
+    if (sampling && sampling->horizon == PE_HORIZON_DARK && pe_method_has_roughness(maps->info.method))
+        hide_below(maps, &view, fmin(fmax(point->roughness, 0), 1), rgb);
 }

@@ -100,6 +100,10 @@ for method in layers voxels; do
     got=$(printf '%s 0.1\n' "$lit" | "$PREFENV" eval $method.exr)
     exact=$(printf '%s 0.1\n' "$lit" | "$PREFENV" exact spot.exr --phong --size 32)
     is "$(holds "(${got%% *} / ${exact%% *} - 1)^2 < 0.1")" 1 "eval of $method: ${got%% *} where ${exact%% *} is exact"
+    got=$(echo "$floor 0.3" | "$PREFENV" eval $method.exr) dark=$(echo "$floor 0.3" |
+        "$PREFENV" eval $method.exr --horizon dark)
+    is "$(holds "0.5 < ${dark%% *} / ${got%% *} && ${dark%% *} / ${got%% *} < 0.6")" 1 \
+        "eval of $method --horizon: half of the lobe is below a surface seen along it"
     is "$(printf '0 0 1 0 1 1 2\n0 0 1 0 1 1 1\n' | "$PREFENV" eval $method.exr | uniq | wc -l)" 1 \
         "eval of $method: beyond 1 it is 1"
     like "$(echo '0 0 1 0 1 1' | "$PREFENV" eval $method.exr 2>&1)" "seven are wanted: nx ny nz ox oy oz roughness" \

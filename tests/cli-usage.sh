@@ -59,7 +59,7 @@ is "$(options_of bake)" \
 no-renormalise normals output paper quality quiet shard size threads threshold weight weights window " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
-is "$(options_of eval)" "exponent help interpolation threads " "the options of eval"
+is "$(options_of eval)" "exponent help horizon interpolation threads " "the options of eval"
 is "$(options_of exact)" \
     "alpha direction help horizon ior k levels material ndf phong quiet size threads weight window " \
     "the options of exact"

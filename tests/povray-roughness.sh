@@ -1,7 +1,7 @@
 #!/bin/bash
 # Roughness that varies, point by point: what POV-Ray shows with `samples all` is what `prefenv exact` answers for the
-# same normal, viewer and roughness, whether that comes from numbers, a pattern, a pigment or a function, and however
-# the texture stands.
+# same normal, viewer and roughness, and with maps what `prefenv eval` does, whether the roughness comes from numbers, a
+# pattern, a pigment or a function, and however the texture stands.
 
 . "$srcdir/tests/tap.sh"
 . "$srcdir/tests/povray/render.sh"
@@ -9,6 +9,8 @@
 size=24
 chart chart.hdr 32 16
 "$rays" rays $size 3 30,40,10 0,0,0 >rays.txt
+
+file='hdr "chart.hdr"'
 
 # sphere NAME BLOCK [OF-THE-TEXTURE [OF-THE-OBJECT]]: NAME.exr; a point of the sphere is its own normal
 sphere()
@@ -21,7 +23,7 @@ sphere {
     ${5:-}
     texture {
         pigment { rgb 1 }
-        finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { hdr "chart.hdr" $2 } } }
+        finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { $file $2 } } }
         ${3:-}
     }
     ${4:-}
@@ -36,6 +38,14 @@ exactly()
 {
     awk "{ x = \$1; y = \$2; z = \$3; print \$0, ($3) }" rays.txt |
         "$PREFENV" exact chart.hdr --phong "${@:4}" >wanted.txt || note 'prefenv exact failed'
+    ok "$1" "$rays" check "$2.exr" 3 1e-3 <wanted.txt && note "$tap_output"
+}
+
+# looked_up NAME PICTURE MAPS LAMBDA OPTION...: prefenv eval
+looked_up()
+{
+    awk "{ x = \$1; y = \$2; z = \$3; print \$0, ($4) }" rays.txt | "$PREFENV" eval "$3" "${@:5}" >wanted.txt ||
+        note 'prefenv eval failed'
     ok "$1" "$rays" check "$2.exr" 3 1e-3 <wanted.txt && note "$tap_output"
 }
 
@@ -103,6 +113,36 @@ exactly 'uv-mapped: along u and v' uv '0.5 + atan2(y, sqrt(x * x + z * z)) / 3.1
 sphere brush "roughness 0.2, 0.5 pattern { checker } direction x pattern { bozo } samples all"
 same 'the pattern of the brush is another' brush checker
 
+# ---- maps of many roughnesses ----
+
+bake chart.hdr -o layers.exr --method layers --float
+bake chart.hdr -o voxels.exr --method voxels --size 32 --float
+for maps in layers voxels; do
+    file="exr \"$maps.exr\""
+    sphere $maps-even 'lambda 0.7'
+    looked_up "$maps: lambda" $maps-even $maps.exr 0.7 --horizon dark
+    sphere $maps-rough 'lambda 0.1'
+    looked_up "$maps: what is rough, the light from below the surface hidden" $maps-rough $maps.exr 0.1 --horizon dark
+    sphere $maps-below 'lambda 0.1 shadowless'
+    looked_up "$maps: shadowless" $maps-below $maps.exr 0.1
+    fails '... which makes a difference' "$PREFENV" diff $maps-rough.exr $maps-below.exr --fail-above-relative 0.01
+    sphere $maps-function 'lambda function { 0.5 + 0.4 * y }'
+    looked_up "$maps: a function" $maps-function $maps.exr '0.5 + 0.4 * y' --horizon dark
+    sphere $maps-halves 'lambda 1, 0.1 function { y < 0 }'
+    looked_up "$maps: half and half, with nothing between" $maps-halves $maps.exr 'y < 0 ? 0.1 : 1' --horizon dark
+done
+# Lambda of alpha: the exponent is (1 / alpha^2 - 1) / 2, and its lambda in 32 voxels by [Okumura Eq. 13].
+lambda='6.2 / (32 * sqrt(exp(4 * log(256) / (1 / (0.3 + 0.2 * y) ^ 2 - 1)) - 1))'
+sphere alpha 'roughness function { 0.3 + 0.2 * y }'
+looked_up 'roughness as well: alpha, turned into lambda' alpha voxels.exr "$lambda" --horizon dark
+
+file='hdr "chart.hdr"'
+sphere baked 'lambda function { 0.5 + 0.4 * y }'
+same 'a plain environment is baked in layers' baked layers-function 0.002
+sphere alphas 'roughness function { 0.3 + 0.2 * y }'
+fails '... for roughness that varies, too' "$PREFENV" diff alphas.exr baked.exr --fail-above-relative 0.01
+like "$said" 'baking chart.hdr, for roughness that varies' '... and says so'
+
 # ---- errors, each in line 5 ----
 
 wrong() # TEXT WORDS PATTERN
@@ -117,12 +157,19 @@ wrong 'lambda 1.5' 'hdr "chart.hdr" lambda 1.5 samples all' 'lambda must lie bet
 wrong 'a range of nothing' 'hdr "chart.hdr" lambda 0.2, 0.5 samples all' 'lambda 0.2, 0.5 is a range: say by what'
 wrong 'a range out of range' \
     'hdr "chart.hdr" roughness 0, 0.5 pattern { bozo } samples all' 'roughness must lie between'
-wrong 'lambda with some samples' 'hdr "chart.hdr" lambda 0.5 samples 20' 'lambda needs samples all'
-wrong 'lambda with a type' 'hdr "chart.hdr" lambda 0.5 type 2 samples all' "lambda is that of Phong's lobe"
-wrong 'shadowless roughness' 'hdr "chart.hdr" roughness 0.5 samples all shadowless' 'shadowless lets light .* lambda'
+wrong 'lambda with some samples' 'hdr "chart.hdr" lambda 0.5 samples 20' \
+    "Phong's lobe is not drawn from: write samples all"
+wrong 'lambda with a type' 'hdr "chart.hdr" lambda 0.5 type 2 samples all' \
+    'lambda, and roughness that varies .*remove type'
+wrong 'layers with a metal' 'hdr "chart.hdr" roughness pattern { bozo } metallic "gold"' 'lambda, and .*remove type'
+wrong 'shadowless microfacets' 'hdr "chart.hdr" roughness 0.5 samples all shadowless' 'shadowless lets light .* lambda'
 wrong 'maps of one roughness' 'exr "maps.exr" roughness function { x }' 'This file holds maps baked for one roughness'
 wrong 'maps with samples all' 'exr "maps.exr" samples all' 'This file holds maps baked for one roughness'
 wrong 'a pigment with a roughness' 'hdr "chart.hdr" roughness' 'Numeric expression|Expected'
-wrong 'a pattern without samples' 'hdr "chart.hdr" roughness pattern { bozo }' 'A roughness that varies needs samples'
+wrong 'many roughnesses, and none said' 'exr "layers.exr"' '.*many roughnesses: say which the surface has'
+wrong 'many roughnesses with samples' 'exr "voxels.exr" roughness 0.2 samples all' \
+    ".*maps of Phong's lobe: remove samples"
+wrong 'many roughnesses with a type' 'exr "layers.exr" roughness 0.2 type 2' ".*maps of Phong's lobe: remove"
+wrong 'two widths' 'exr "layers.exr" roughness 0.2, 0.3' '.*the same in all directions, but 0.2, 0.3 was given'
 
 done_testing

@@ -357,7 +357,7 @@ static void test_furnace(const pe_ndf *ndf, pe_accuracy accuracy, int angles)
 
     for (int k = 0; k < 5000; k++) {
         double n[3], o[3], d[3], rgb[3];
-        pe_sampling sampling = { (pe_interpolation)(k % 4), 0 };
+        pe_sampling sampling = { (pe_interpolation)(k % 4), 0, PE_HORIZON_IGNORED };
 
         random_view(&state, -1, n, o);
         reference_random_direction(&state, d);

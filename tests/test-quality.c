@@ -89,7 +89,7 @@ static pe_maps *bake(const pe_env *env, const pe_surface *surface, pe_method met
 static void test_surface(const char *name, const pe_env *env, double alpha_x, double alpha_y, double share,
                          double honesty)
 {
-    static const pe_sampling weighted = { PE_INTERPOLATION_WEIGHTED, 50 };
+    static const pe_sampling weighted = { PE_INTERPOLATION_WEIGHTED, 50, PE_HORIZON_IGNORED };
     const pe_surface surface = { .ndf = { PE_NDF_BECKMANN, alpha_x, alpha_y, NULL } };
     static view views[VIEWS];
     pe_maps *maps = bake(env, &surface, PE_METHOD_DEFAULT), *paper = bake(env, &surface, PE_METHOD_REPRESENTATIVE);

@@ -11,11 +11,11 @@
 #include <string.h>
 
 static const double plus_y[3] = { 0, 1, 0 };
-static const pe_sampling modes[] = { { PE_INTERPOLATION_NEAREST, 0 },
-                                     { PE_INTERPOLATION_WEIGHTED, 10 },
-                                     { PE_INTERPOLATION_WEIGHTED, 0 },
-                                     { PE_INTERPOLATION_LINEAR, 0 },
-                                     { PE_INTERPOLATION_DEFAULT, 0 } };
+static const pe_sampling modes[] = { { PE_INTERPOLATION_NEAREST, 0, PE_HORIZON_IGNORED },
+                                     { PE_INTERPOLATION_WEIGHTED, 10, PE_HORIZON_IGNORED },
+                                     { PE_INTERPOLATION_WEIGHTED, 0, PE_HORIZON_IGNORED },
+                                     { PE_INTERPOLATION_LINEAR, 0, PE_HORIZON_IGNORED },
+                                     { PE_INTERPOLATION_DEFAULT, 0, PE_HORIZON_IGNORED } };
 static const char *const mode_names[] = { "nearest", "weighted 10", "weighted 50", "linear", "default" };
 #define MODES 5
 

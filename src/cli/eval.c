@@ -8,7 +8,7 @@ typedef struct eval_settings {
     const char *maps;
     int interpolation;
     double exponent;
-    int threads;
+    int horizon, threads;
 } eval_settings;
 
 static const cli_operand operands[] = { { "MAPS", offsetof(eval_settings, maps), "a maps file" }, { NULL, 0, NULL } };
@@ -20,12 +20,21 @@ static const cli_choice interpolations[] = {
     { NULL, 0 },
 };
 
+static const cli_choice horizons[] = {
+    { "ignored", PE_HORIZON_IGNORED },
+    { "dark", PE_HORIZON_DARK },
+    { NULL, 0 },
+};
+
 static const cli_option options[] = {
     { "interpolation", 0, "NAME", CLI_CHOICE, offsetof(eval_settings, interpolation), 0, 0, interpolations, "linear", 0,
       "between the representative normals: nearest, weighted or linear" },
     { "exponent", 0, "A", CLI_NUMBER, offsetof(eval_settings, exponent), 0.01, 1000000, NULL, NULL, 0,
       "for weighted: the power of the cosine that weighs the normals. Default: 50 for 42 normals, 50(f/2)^2 for "
       "10f^2+2" },
+    { "horizon", 0, "NAME", CLI_CHOICE, offsetof(eval_settings, horizon), 0, 0, horizons, "ignored", 0,
+      "of layers and voxels, the light from below the surface: ignored, it counts; dark, it is hidden, as far as the "
+      "share of the lobe above the horizon tells" },
     CLI_OPTION_THREADS(eval_settings),
     { .name = NULL },
 };
@@ -46,7 +55,9 @@ static void look_up(const pe_point *point, const void *data, double rgb[3])
 
 static int answer_lines(const eval_settings *settings, const pe_maps *maps)
 {
-    const lookup l = { maps, { (pe_interpolation)settings->interpolation, settings->exponent } };
+    const lookup l = {
+        maps, { (pe_interpolation)settings->interpolation, settings->exponent, (pe_horizon)settings->horizon }
+    };
     const query_form form = pe_maps_have_roughness(maps) ? QUERY_ROUGHNESS : QUERY_PLAIN;
     const lines_job job = { "eval", settings->threads, LINES_PER_BLOCK, form, look_up, &l };
 
