@@ -48,6 +48,16 @@ wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be
 wrong 'traced without samples' 'hdr "chart.hdr" roughness 0.1 traced' \
     'traced says that the directions of samples are traced: give their number, such as samples 64'
 wrong 'maps traced' 'exr "maps.exr" traced' 'This file holds maps baked for one roughness: remove .*traced'
+wrong 'half a ray' 'hdr "chart.hdr" roughness 0.1 interreflection 1.5' \
+    'interreflection must be a whole number of rays from 0 to 1000000, but 1.5 was given'
+wrong 'maps without their environment' 'exr "maps.exr" interreflection 8' \
+    'interreflection needs the environment that these maps were baked from: .*interreflection 8 exr "chart.hdr"'
+wrong 'maps for their environment' 'exr "maps.exr" interreflection 8 exr "maps.exr"' \
+    'interreflection needs the environment that these maps were baked from'
+wrong 'an environment twice' 'hdr "chart.hdr" roughness 0.1 interreflection 8 hdr "chart.hdr"' \
+    'interreflection takes a file behind its number with maps only'
+wrong 'interreflection and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 interreflection 8' \
+    'interreflection corrects what is looked up in maps, but samples asks for none'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
 wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'

@@ -31,7 +31,9 @@ object {{
   pigment {{ rgb 1 }}
   finish {{ ambient Ambient diffuse 0
     #if (Ambient = 0)
-      reflection {{ 1 prefiltered_environment {{ exr "environment.exr" roughness {alpha} ior {eta}, {k} samples {samples} traced }} }}
+      reflection {{ 1 prefiltered_environment {{
+        exr "environment.exr" roughness {alpha} ior {eta}, {k} samples {samples} traced
+      }} }}
     #end
   }}
 }}
@@ -68,7 +70,9 @@ def our_picture(options, name, ambient=0, shift=0.0):
     step = peer_width() / side * shift
     command += [f"Declare=Ambient={ambient}", f"Declare=Step={step:.9f}", f"+L{options.output}"]
     with open(os.path.join(options.output, "bunny.log"), "w") as file:
-        done = subprocess.run(command, cwd=options.output, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        done = subprocess.run(
+            command, cwd=options.output, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL
+        )
     if done.returncode != 0:
         sys.exit(f"peer-check: the bunny could not be rendered; see {file.name}")
     picture = peer.read_environment(path)
@@ -188,9 +192,11 @@ def main():
     passed = result["difference_beyond_noise"] <= options.bound
     print(
         f"{'ok' if passed else 'not ok'}: bunny, every bounce, alpha {options.alpha}: "
-        f"{100 * result['difference']:.2f} % from Mitsuba, its noise {100 * result['mitsuba_noise']:.2f} %, ours {100 * result['our_noise']:.2f} %; "
+        f"{100 * result['difference']:.2f} % from Mitsuba, its noise {100 * result['mitsuba_noise']:.2f} %, "
+        f"ours {100 * result['our_noise']:.2f} %; "
         f"{100 * result['difference_beyond_noise']:.2f} % without (one bounce alone: "
-        f"{100 * result['one_bounce']:.1f} %); mean {result['mean_ratio']:.4f} of Mitsuba's; {result['pixels']} pixels, {result['rays']} rays in each"
+        f"{100 * result['one_bounce']:.1f} %); mean {result['mean_ratio']:.4f} of Mitsuba's; "
+        f"{result['pixels']} pixels, {result['rays']} rays in each"
     )
     if not passed:
         sys.exit(f"peer-check: the bunny differs by more than {100 * options.bound} % beyond noise")

@@ -1,0 +1,127 @@
+#!/bin/bash
+# `interreflection N`: a lookup is corrected by what rays find that is not the sky.  Where they find nothing it stays
+# what it was, to the last bit; where they do, it nears what tracing everything gives; no light leaks through what
+# stands in the way, none is counted twice; threads change nothing.
+
+. "$srcdir/tests/tap.sh"
+. "$srcdir/tests/povray/render.sh"
+
+size=24
+pictures=12
+chart chart.hdr 256 128
+chart other.hdr 256 128 0
+bake chart.hdr -o maps.exr --alpha 0.3
+bake other.hdr -o other.exr --alpha 0.3 --error 0.001
+
+sphere() # BLOCK REST
+{
+    scene sphere.pov <<END
+#declare Place = clock * <0.37, -0.21, 0.11>;
+camera { location -3*z direction z right x up y translate Place }
+sphere {
+    0, 1
+    pigment { rgb 1 }
+    finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { $1 } } }
+    translate Place
+}
+$2
+END
+}
+
+one() # NAME BLOCK REST OPTION...
+{
+    sphere "$2" "$3"
+    render sphere.pov +W$size +H$size +FE +K1 "+O$1" "${@:4}" || note "$said"
+}
+
+# rmse IMAGE REFERENCE: relative
+rmse()
+{
+    "$PREFENV" diff "$1" "$2" --json | tr ',{' '\n\n' | sed -n 's/.*"relative_rmse": *\([0-9.e+-]*\).*/\1/p'
+}
+
+holds() # EXPRESSION
+{
+    [ "$(awk "BEGIN { print ($1) ? 1 : 0 }")" = 1 ]
+}
+
+# ---- the sky alone ----
+
+turned='scale <-1, 1, 1> rotate <20, 50, 0>'
+one lookup.exr "exr \"maps.exr\" $turned" ''
+one alone.exr "exr \"maps.exr\" interreflection 16 hdr \"chart.hdr\" $turned" ''
+ok 'what sees only sky stays what it was' "$PREFENV" diff lookup.exr alone.exr --fail-above 0
+one level.exr "exr \"maps.exr\" interreflection 16 hdr \"chart.hdr\" $turned" \
+    'global_settings { max_trace_level 1 } sphere { 0, 50 hollow pigment { rgb 0 } finish { ambient 0 } }'
+ok 'max_trace_level 1: nothing is traced, and the lookup stays' "$PREFENV" diff lookup.exr level.exr --fail-above 0
+
+# ---- things in the way ----
+
+sphere 'exr "other.exr" interreflection 8 hdr "other.hdr" rotate <0, 120, 90>' \
+    'sphere { 0, 1e5 hollow pigment { prefiltered_environment { hdr "other.hdr" } } finish { ambient 1 diffuse 0 } }'
+render sphere.pov +W$size +H$size +FE +KI1 +KF$pictures +KFI1 +KFF$pictures +Opicture.exr || note "$said"
+"$rays" rays $size 3 0,0,0 0,0,0 | "$PREFENV" exact other.hdr --alpha 0.3 >wanted.txt
+ok 'a shell all around: what it shows, exact but for noise' "$rays" noise 3 picture*.exr <wanted.txt
+note "$tap_output"
+
+things='plane { y, -1.1 pigment { rgb <0.3, 0.1, 0> } finish { ambient 1 diffuse 0 } translate Place }
+    box { <0.9, -1, -1.5>, <2, 1, -0.5> pigment { rgb <0, 0, 2> } finish { ambient 1 diffuse 0 } translate Place }'
+block='exr "maps.exr" interreflection 16 hdr "chart.hdr"'
+one truth.exr 'hdr "chart.hdr" roughness 0.3 samples 1500 traced' "$things"
+one plain.exr 'exr "maps.exr"' "$things"
+one corrected.exr "$block" "$things"
+one same.exr "$block" "$things" +WT1
+one many.exr 'hdr "chart.hdr" roughness 0.3 interreflection 256' "$things"
+ok 'the same picture with another number of threads' "$PREFENV" diff corrected.exr same.exr --fail-above 0
+plain=$(rmse plain.exr truth.exr) corrected=$(rmse corrected.exr truth.exr) many=$(rmse many.exr truth.exr)
+note "relative RMSE: the lookup $plain, corrected by 16 rays $corrected, by 256 $many"
+ok '16 rays take two thirds of the error' holds "$corrected < $plain / 3"
+ok '256 rays, and maps baked in the scene: nine tenths' holds "$many < $plain / 10"
+
+# The rule that stops after a quarter of the rays leaves a bias: N rays miss what fills the share p of the lobe with the
+# chance (1 - p)^(N / 4), which keeps at most 0.06 of what was to be corrected with 16 rays.
+sphere "$block" "$things"
+render sphere.pov +W$size +H$size +FE +KI1 +KF8 +KFI1 +KFF8 +Omean.exr || note "$said"
+oiiotool mean1.exr mean2.exr --add mean3.exr --add mean4.exr --add mean5.exr --add mean6.exr --add mean7.exr --add \
+    mean8.exr --add --divc 8 -d half -o mean.exr
+bias=$(rmse mean.exr truth.exr)
+note "relative RMSE of the mean of 8 pictures: $bias"
+ok '... and the mean of 8 pictures is nearer by half' holds "$bias < $corrected / 1.7"
+
+# ---- nothing leaks, nothing counts twice ----
+
+# A sky twice as bright as the room that shuts it out: everything is the room's grey, however light goes.
+oiiotool --create 64x32 3 --fill:color=1,1,1 64x32 -d float -o sky.exr
+room() # NAME SETTINGS
+{
+    scene room.pov <<END
+$2
+camera { location <0, 0.6, -5> look_at 0 angle 50 }
+#declare Glossy = finish { ambient 0 diffuse 0
+    reflection { 1 prefiltered_environment { exr "sky.exr" roughness 0.6 interreflection 4 } } }
+sphere { 0, 30 hollow pigment { rgb 1 } finish { ambient 0 emission 0.5 diffuse 0 } }
+sphere { -0.8*x, 0.8 pigment { rgb 1 } finish { Glossy } }
+sphere { 0.8*x, 0.8 pigment { rgb 1 } normal { bumps 0.8 scale 0.1 } finish { Glossy } }
+torus { 0.8, 0.25 sturm rotate -30*x translate -1.1*y pigment { rgb 1 } finish { Glossy } }
+END
+    render room.pov +W40 +H40 +FE +Oroom.exr || note "$said"
+    oiiotool --create 40x40 3 --fill:color=0.5,0.5,0.5 40x40 -d half -o grey.exr
+    ok "$1" "$PREFENV" diff room.exr grey.exr --fail-above 0.002
+}
+
+room 'a room shuts the sky out, at every bounce' 'global_settings { max_trace_level 100 adc_bailout 0 }'
+room '... with radiosity' 'global_settings { max_trace_level 100 adc_bailout 0 radiosity { count 20 } }'
+room '... with photons' 'global_settings { max_trace_level 100 adc_bailout 0 photons { count 2000 } }
+    light_source { <0, 3, -3>, 0 }'
+
+# Grey matter under radiosity, seen in metal: as tracing sees it.
+floor='global_settings { radiosity { count 60 error_bound 0.5 } }
+    plane { y, -1.1 pigment { rgb 0.6 } finish { ambient 0 diffuse 1 } translate Place }
+    sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" } } }'
+one truth.exr 'hdr "chart.hdr" roughness 0.3 samples 300 traced' "$floor" +WT1
+one corrected.exr 'exr "maps.exr" interreflection 64 hdr "chart.hdr"' "$floor" +WT1
+radiosity=$(rmse corrected.exr truth.exr)
+note "relative RMSE with radiosity: $radiosity"
+ok 'radiosity is seen as it is traced' holds "$radiosity < 0.05"
+
+done_testing
