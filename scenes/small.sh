@@ -9,7 +9,7 @@
 
 small_scenes='bunny mask fig4b fig5a fig5b fig5c fig6b fig6c fig6d fig6e fig6f fig7_mask fig7a fig7b fig7c ten_lines
     cylinder spheres gallery turned teapot fig4 fig6 fig7 readme surfaces view
-    workshop street teapot8 contact teapot6a teapot6b'
+    workshop street teapot8 contact teapot6a teapot6b teapot7_mask teapot7a teapot7b pixels difference teapot7 worn'
 
 small_prepare()
 {
@@ -52,6 +52,10 @@ END
 #declare Mse7_B = 2;
 #declare Mse7_C = 3;
 END
+    cat >teapot7_numbers.inc <<'END'
+#declare Mean_Voxels = 2;
+#declare Mean_Layers = 1;
+END
 }
 
 small_bake() # ENVIRONMENT MAPS OPTION...
@@ -83,6 +87,8 @@ small_render()
         fig6) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         fig7) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
         readme) size='+W164 +H144 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        teapot7) size='+W392 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
+        worn) size='+W192 +H128 +A0.1 +AM2 +R2 -J' ;;
         contact) size='+W326 +H186 +A0.0 +AM1 +R2 -J Declare=Frames=1' ;;
         workshop) size='+W160 +H120 -A Declare=Rays=128' ;;
         teapot6?) size='+W128 +H64 -A' ;;
@@ -97,7 +103,35 @@ small_render()
         street) # a PNG to look at, an EXR for teapot8
             small_frame street png '+W128 +H64 +A0.05 +AM1 +R3 -J'
             small_frame street exr '+W128 +H64 +A0.05 +AM1 +R3 -J'
-            small_bake street_001.exr street_001.pe.exr --normals 42 --size 32x32
+            small_bake street_001.exr street_001.pe.exr --method layers
+            ;;
+        teapot6?) # a PNG to look at, an EXR for teapot7
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.exr" $size +L.
+            small_bake "$1.exr" "layers-${1#teapot6}.exr" --method layers
+            ;;
+        teapot7?) # the same; phong-b-0 and layers-b-0 are for pixels, difference and teapot7
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.exr" $size +L.
+            ;;
+        pixels | difference)
+            ln -sf teapot7b.exr picture.exr
+            ln -sf teapot7a.exr reference.exr
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+            ;;
+        teapot7)
+            cp teapot7a.png phong-b-0.pixels.png
+            cp pixels.png layers-b-0.pixels.png
+            cp pixels.png voxels-b-0.pixels.png
+            cp difference.png layers-b-0.difference.pixels.png
+            cp difference.png voxels-b-0.difference.pixels.png
+            render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
+            ;;
+        worn) # it bakes by itself, of a smaller environment
+            mkdir -p worn
+            render worn.log "$srcdir/scenes/fig5a.pov" worn/environment.exr +W128 +H64 -A +L.
+            cp teapot_mesh.inc worn/
+            (cd worn && render worn.log "$srcdir/scenes/worn.pov" ../worn.png $size +L.)
             ;;
         teapot8) small_frame teapot8 png '+W128 +H96 -A' ;;
         gallery | turned)
