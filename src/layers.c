@@ -1,7 +1,8 @@
 /* layers.c - see layers.h.
  *
  * In a lat-long picture the texels that have weight for a direction lie in a few rows, in each between two columns.
- * The sum runs along them, 16 at a time.  A layer reads the environment at a size whose texels are a good deal narrower
+ * The sum runs along them, 16 at a time.  Turned about the pole by a number of columns a lobe has the same weights, so
+ * that they are worked out once for all texels of a row that lie alike over the environment's.  A layer reads the environment at a size whose texels are a good deal narrower
  * than its lobe; what is left out is below e^-CUTOFF of the lobe's peak. */
 #include "layers.h"
 
@@ -63,19 +64,14 @@ static pe_status make_strip(const pe_env *env, strip *s, pe_error *error)
     return PE_OK;
 }
 
-/* ---- a lobe ---- */
+/* ---- a lobe in a row ---- */
 
-/* Where a lobe has weight in one row, and what the row's texels count. */
+/* Where a lobe has weight in one row of the environment. */
 typedef struct span {
-    int offset; /* of its first texel in the strip's channels */
-    int first, count;
+    int row, first, count;
     float cos_theta, sin_theta, solid_angle;
+    double reach; /* from the lobe's azimuth, in turns */
 } span;
-
-/* Weight, red, green, blue. */
-typedef struct sums {
-    floats of[4];
-} sums;
 
 /* -log2(1 - d) for d in [0, 0.7]: 1 - d = (1 - z) / (1 + z), whose logarithm is an odd series in z. */
 INLINE floats bits_of_near(floats d)
@@ -92,7 +88,7 @@ INLINE floats bits_of_near(floats d)
 }
 
 /* The same for any d below 1, for exponents that a little less precision is enough for: 1 - d = 2^k m, m in [1, 2) of
- * which the square root is taken out, and the series again. */
+ * which the square root of 2 is taken out, and the series again. */
 INLINE floats bits_of_far(floats d)
 {
     floats c = 1 - d;
@@ -103,12 +99,13 @@ INLINE floats bits_of_far(floats d)
     return bits_of_near(1 - m) - (__builtin_convertvector(k, floats) + 0.5f);
 }
 
-/* Adds the texels of a span; where `far`, the lobe reaches as far as a right angle. */
-INLINE void add_span(const strip *s, const span *at, const float r[3], float exponent, int far, sums *out)
+/* The weights of a span's texels for the direction r, and zeros to the end of the last vector; where `far`, the lobe
+ * reaches as far as a right angle.  Returns their sum. */
+INLINE float weigh(const strip *s, const span *at, const float r[3], float exponent, int far, float *weights)
 {
     static const float order[LANES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    float dy = at->cos_theta - r[1];
-    floats lane = load(order);
+    float dy = at->cos_theta - r[1], total = 0;
+    floats lane = load(order), sum = { 0 };
 
     for (int k = 0; k < at->count; k += LANES) {
         floats dx = at->sin_theta * load(s->cos_phi + at->first + k) - r[0];
@@ -121,127 +118,165 @@ INLINE void add_span(const strip *s, const span *at, const float r[3], float exp
         weight = exponent * (far ? bits_of_far(d) : bits_of_near(d));
         exp2_of_negative(&weight, CUTOFF_BITS);
         weight = (floats)((ints)(weight * at->solid_angle) & inside);
-        out->of[0] += weight;
-        for (int c = 0; c < 3; c++)
-            out->of[c + 1] += weight * load(s->channels[c] + at->offset + k);
+        memcpy(weights + k, &weight, sizeof weight);
+        sum += weight;
     }
+    for (int k = 0; k < LANES; k++)
+        total += sum[k];
+    return total;
 }
 
-CLONES static void add_near(const strip *s, const span *spans, int count, const float r[3], float exponent, sums *out)
+CLONES static float weigh_near(const strip *s, const span *at, const float r[3], float exponent, float *weights)
 {
-    for (int k = 0; k < count; k++)
-        add_span(s, &spans[k], r, exponent, 0, out);
+    return weigh(s, at, r, exponent, 0, weights);
 }
 
-CLONES static void add_far(const strip *s, const span *spans, int count, const float r[3], float exponent, sums *out)
+CLONES static float weigh_far(const strip *s, const span *at, const float r[3], float exponent, float *weights)
 {
-    for (int k = 0; k < count; k++)
-        add_span(s, &spans[k], r, exponent, 1, out);
+    return weigh(s, at, r, exponent, 1, weights);
 }
 
-/* ---- a layer ---- */
+/* ---- a row of a layer ---- */
+
+/* Texels of a row whose columns lie alike over the environment's: every `period`-th, which `step` columns are apart. */
+typedef struct period {
+    int texels, columns, count; /* count times texels, count times columns are the rows */
+} period;
 
 typedef struct job {
     strip strip;
     const pe_env *env; /* itself */
     int width, height;
+    period period;
     double exponent, least_cosine;
     float *image;
     unsigned char *done; /* memory sufficed for this row */
 } job;
 
-/* The spans of one row of the layer: those of its first texel, from which the others' are turned. */
+/* What a row of a layer adds up: of each texel three vectors, and of each that is not like one before it the weight. */
+typedef struct row_room {
+    span *spans;
+    float *weights, *sums, *totals;
+} row_room;
+
+/* The same weights for texel `first` of the layer and all that are like it. */
+CLONES static void apply(const strip *s, const span *at, const period *p, const float *weights, int first, float *sums)
+{
+    int width = s->env->width, column = at->first;
+
+    for (int m = 0; m < p->count; m++) {
+        float *to = sums + (size_t)(first + m * p->texels) * 3 * LANES;
+
+        for (int c = 0; c < 3; c++) {
+            const float *from = s->channels[c] + (size_t)at->row * (size_t)s->stride + column;
+            floats sum = load(to + c * LANES);
+
+            for (int k = 0; k < at->count; k += LANES)
+                sum += load(weights + k) * load(from + k);
+            memcpy(to + c * LANES, &sum, sizeof sum);
+        }
+        column += p->columns;
+        column -= column >= width ? width : 0;
+    }
+}
+
+static int gcd(int a, int b)
+{
+    return b ? gcd(b, a % b) : a;
+}
+
+/* The rows of the environment where a lobe at this polar angle has weight. */
 static int make_spans(const job *j, double polar, span *spans)
 {
-    const pe_env *env = j->strip.env;
+    const pe_grid *grid = &j->strip.env->grid;
     int count = 0;
 
-    for (int y = 0; y < env->height; y++) {
-        double along = cos(polar) * env->grid.cos_theta[y], across = sin(polar) * env->grid.sin_theta[y];
+    for (int y = 0; y < j->strip.env->height; y++) {
+        double along = cos(polar) * grid->cos_theta[y], across = sin(polar) * grid->sin_theta[y];
 
         if (along + across < j->least_cosine)
             continue;
-        spans[count++] = (span){ .offset = y * j->strip.stride,
-                                 .cos_theta = (float)env->grid.cos_theta[y],
-                                 .sin_theta = (float)env->grid.sin_theta[y],
-                                 .solid_angle = (float)(env->grid.solid_angle_sr[y] / env->grid.solid_angle_sr[0]) };
+        spans[count] = (span){ .row = y,
+                               .cos_theta = (float)grid->cos_theta[y],
+                               .sin_theta = (float)grid->sin_theta[y],
+                               .solid_angle = (float)(grid->solid_angle_sr[y] / grid->solid_angle_sr[0]) };
+        spans[count++].reach =
+            along - across >= j->least_cosine ? 0.5 : acos(fmax((j->least_cosine - along) / across, -1)) / (2 * M_PI);
     }
     return count;
 }
 
-/* How far from the lobe's azimuth texels of a row have weight; pi: all have. */
-static double reach_of(const job *j, double polar, const span *at)
+/* Places a span about the azimuth u, in turns. */
+static void turn_span(int width, double u, span *at)
 {
-    double along = cos(polar) * (double)at->cos_theta, across = sin(polar) * (double)at->sin_theta;
+    int first = (int)ceil((u - at->reach) * width - 0.5), last = (int)floor((u + at->reach) * width - 0.5);
 
-    return along - across >= j->least_cosine ? M_PI : acos(fmax((j->least_cosine - along) / across, -1));
-}
-
-/* Places the spans about the azimuth u, in turns. */
-static void turn_spans(const job *j, const double *reaches, double u, span *spans, int count)
-{
-    int width = j->strip.env->width;
-
-    for (int k = 0; k < count; k++) {
-        int row = spans[k].offset - spans[k].offset % j->strip.stride, first, last;
-
-        first = (int)ceil((u - reaches[k] / (2 * M_PI)) * width - 0.5);
-        last = (int)floor((u + reaches[k] / (2 * M_PI)) * width - 0.5);
-        spans[k].count = last - first + 1 < width ? last - first + 1 : width;
-        spans[k].first = (first + 2 * width) % width;
-        spans[k].offset = row + spans[k].first;
-    }
-}
-
-static void store(const job *j, const sums *s, const double r[3], float *texel)
-{
-    double total[4] = { 0 };
-
-    for (int v = 0; v < 4; v++)
-        for (int k = 0; k < LANES; k++)
-            total[v] += (double)s->of[v][k];
-    if (!(total[0] > 0)) /* a lobe between the texels */
-        pe_env_lookup(j->env, r, total + 1);
-    for (int c = 0; c < 3; c++)
-        texel[c] = (float)(total[0] > 0 ? total[c + 1] / total[0] : total[c + 1]);
+    at->count = last - first + 1 < width ? last - first + 1 : width;
+    at->first = (first + width) % width;
 }
 
 /* Exponents up to this one have lobes that reach beyond where the series holds. */
 #define FAR_EXPONENT 15.0
 
-static void fill_texels(const job *j, double polar, int y, span *spans, const double *reaches, int count)
+/* Adds all spans to the texels that are like texel x. */
+static void add_spans(const job *j, double polar, int x, int count, row_room *room)
+{
+    double r[3];
+    float single[3];
+
+    pe_latlong_direction((x + 0.5) / j->width, polar / M_PI, r);
+    for (int c = 0; c < 3; c++)
+        single[c] = (float)r[c];
+    room->totals[x] = 0;
+    for (int k = 0; k < count; k++) {
+        span *at = &room->spans[k];
+
+        turn_span(j->strip.env->width, (x + 0.5) / j->width, at);
+        room->totals[x] += (j->exponent <= FAR_EXPONENT ? weigh_far : weigh_near)(&j->strip, at, single,
+                                                                                  (float)j->exponent, room->weights);
+        apply(&j->strip, at, &j->period, room->weights, x, room->sums);
+    }
+}
+
+static void store_row(const job *j, int y, const row_room *room)
 {
     for (int x = 0; x < j->width; x++) {
-        double r[3];
-        float single[3];
-        sums s = { { { 0 } } };
+        float *texel = j->image + 3 * ((size_t)y * (size_t)j->width + (size_t)x);
+        double total = (double)room->totals[x % j->period.texels], r[3], rgb[3] = { 0 };
 
-        pe_latlong_direction((x + 0.5) / j->width, polar / M_PI, r);
+        for (int v = 0; v < 3 * LANES; v++)
+            rgb[v / LANES] += (double)room->sums[(size_t)x * 3 * LANES + (size_t)v] / total;
+        if (!(total > 0)) { /* a lobe between the texels */
+            pe_latlong_direction((x + 0.5) / j->width, (y + 0.5) / j->height, r);
+            pe_env_lookup(j->env, r, rgb);
+        }
         for (int c = 0; c < 3; c++)
-            single[c] = (float)r[c];
-        turn_spans(j, reaches, (x + 0.5) / j->width, spans, count);
-        (j->exponent <= FAR_EXPONENT ? add_far : add_near)(&j->strip, spans, count, single, (float)j->exponent, &s);
-        store(j, &s, r, j->image + 3 * ((size_t)y * (size_t)j->width + (size_t)x));
+            texel[c] = (float)rgb[c];
     }
 }
 
 static void fill_row(size_t y, void *data)
 {
     job *j = data;
+    const pe_env *env = j->strip.env;
     double polar = M_PI * ((double)y + 0.5) / j->height;
-    span *spans = malloc((size_t)j->strip.env->height * sizeof *spans);
-    double *reaches = malloc((size_t)j->strip.env->height * sizeof *reaches);
+    row_room room = { malloc((size_t)env->height * sizeof *room.spans),
+                      malloc(((size_t)env->width + LANES) * sizeof *room.weights),
+                      calloc((size_t)j->width * 3 * LANES, sizeof *room.sums),
+                      malloc((size_t)j->period.texels * sizeof *room.totals) };
 
-    if (spans && reaches) {
-        int count = make_spans(j, polar, spans);
+    if (room.spans && room.weights && room.sums && room.totals) {
+        int count = make_spans(j, polar, room.spans);
 
-        for (int k = 0; k < count; k++)
-            reaches[k] = reach_of(j, polar, &spans[k]);
-        fill_texels(j, polar, (int)y, spans, reaches, count);
+        for (int x = 0; x < j->period.texels; x++)
+            add_spans(j, polar, x, count, &room);
+        store_row(j, (int)y, &room);
         j->done[y] = 1;
     }
-    free(spans);
-    free(reaches);
+    free(room.spans);
+    free(room.weights);
+    free(room.sums);
+    free(room.totals);
 }
 
 static pe_status fill_layer(job *j, int threads, const pe_report *report, pe_error *error)
@@ -276,6 +311,9 @@ pe_status pe_fill_layers(const pe_env *env, int threads, const pe_report *report
         status = make_strip(pe_pyramid_level(&pyramid, TEXEL_PER_DEVIATION / sqrt(j.exponent)), &j.strip, error);
         if (status != PE_OK)
             break;
+        j.period.count = gcd(j.width, j.strip.env->width);
+        j.period.texels = j.width / j.period.count;
+        j.period.columns = j.strip.env->width / j.period.count;
         status = fill_layer(&j, threads, &part, error);
         part.done += j.height;
         free_strip(&j.strip);

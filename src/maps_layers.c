@@ -10,8 +10,9 @@
 /* No layer is rougher: a lobe as wide as a hemisphere, beyond which there is nothing to see. */
 #define EXPONENT_MIN 1.0
 
-/* However rough, a lobe ends at a right angle, and has a crease there. */
-#define HEIGHT_MIN (PE_LAYER_WIDTH_MIN / 2)
+/* However rough, a lobe ends at a right angle, and has a crease there.  Multiples of this go well with environments'
+ * sizes: src/layers.c. */
+#define HEIGHT_MIN 16 /* half of PE_LAYER_WIDTH_MIN */
 
 static double step_of(const pe_maps_info *info)
 {
@@ -22,8 +23,10 @@ pe_layer pe_layer_of(const pe_maps_info *info, int k)
 {
     pe_layer layer = { .exponent = pe_smoothness_exponent(&info->smoothness, 1) * exp(-step_of(info) * k) };
 
-    layer.height = (int)ceil(info->height * exp(-step_of(info) * k / 2) - 1e-9);
-    layer.height = layer.height < HEIGHT_MIN ? HEIGHT_MIN : layer.height;
+    if (k == 0)
+        layer.height = info->height;
+    else
+        layer.height = HEIGHT_MIN * (int)ceil(info->height * exp(-step_of(info) * k / 2) / HEIGHT_MIN - 1e-9);
     layer.width = 2 * layer.height;
     return layer;
 }

@@ -38,7 +38,7 @@ static void choose_layers(const pe_bake_options *options, pe_maps_info *info)
 
     info->images = options->layers ? options->layers : (int)fmin(fmax(ceil(layers), PE_LAYERS_MIN), PE_LAYERS_MAX);
     if (!info->width)
-        info->width = 4 * (int)ceil(fmin(width, PE_MAPS_SIDE_MAX) / 4);
+        info->width = PE_LAYER_WIDTH_MIN * (int)ceil(fmin(width, PE_MAPS_SIDE_MAX) / PE_LAYER_WIDTH_MIN);
     if (!info->height)
         info->height = info->width / 2;
 }
