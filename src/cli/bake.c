@@ -125,6 +125,7 @@ static int check_roughness(const bake_settings *settings)
         { "angles", settings->angles > 1, 0, 0, 1 },
         { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0, 0, 1 },
         { "material", settings->surface.material != NULL, 0, 0, 1 },
+        { "error", settings->error > 0, 1, 0, 1 },
         { "threshold", settings->threshold > 0, 0, 1, 0 },
         { "no-renormalise", settings->no_renormalise, 0, 1, 0 },
         { "weights", settings->weights != NULL, 0, 1, 0 },
@@ -139,6 +140,9 @@ static int check_roughness(const bake_settings *settings)
             continue;
         if (rows[k].for_voxels)
             cli_error("bake", "--%s is for --method voxels; leave it out or give both", rows[k].option);
+        else if (rows[k].for_layers)
+            cli_error("bake", "--%s does not go with --method voxels, whose --size says all; leave it out",
+                      rows[k].option);
         else
             cli_error("bake",
                       "--%s does not go with --method layers and voxels, whose roughness is said at each lookup; "

@@ -60,15 +60,17 @@ static void note_flaws(batch *b, const char *environment, const pe_env *env)
 static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
-    int of_lookups = info->method == PE_METHOD_HEMISPHERES; /* of lat-long maps only texels are measured */
+    int of_lookups = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_LAYERS; /* else not measured */
+    const char *way_out = info->method == PE_METHOD_HEMISPHERES ? "give more --normals, and a larger --size"
+                          : of_lookups                          ? "a smaller --error makes finer layers"
+                                                                : "--exact has none";
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
 
     if (b->quiet || b->made > 0 || !(wanted > 0 && reached > wanted))
         return;
     progress_clear(&b->bar);
     cli_warning("bake", "%s: the error of %s is %.2g %%, not the %.2g %% asked for; %s", output,
-                of_lookups ? "lookups" : "texels", 100 * reached, 100 * wanted,
-                of_lookups ? "give more --normals, and a larger --size" : "--exact has none");
+                of_lookups ? "lookups" : "texels", 100 * reached, 100 * wanted, way_out);
 }
 
 /* ---- write ---- */
