@@ -8,7 +8,7 @@
 . "$srcdir/tests/povray/render.sh"
 
 oiiotool --create 64x32 3 --fill:color=1,1,1 64x32 -d float -o white.exr
-glossy='exr "white.exr" roughness 0.2'
+bake white.exr -o white.pe.exr --alpha 0.2
 
 # AMOUNT of reflection, WORDS of the block, REST of the texture, REST of the scene; the picture is VALUE all over.
 shows() # NAME VALUE AMOUNT WORDS TEXTURE SCENE
@@ -20,7 +20,7 @@ plane {
     -z, 0
     texture {
         pigment { rgb 1 }
-        finish { ambient 0 diffuse 0 reflection { $3 prefiltered_environment { $glossy $4 } } }
+        finish { ambient 0 diffuse 0 reflection { $3 prefiltered_environment { $4 } } }
     }
     $5
 }
@@ -32,18 +32,19 @@ END
     ok "$1" "$PREFENV" diff around.exr wanted.exr --fail-above 0.001
 }
 
-corrected='interreflection 8'
-traced='samples 8 traced'
+looked_up='exr "white.pe.exr"'
+corrected='exr "white.pe.exr" interreflection 8 exr "white.exr"'
+traced='exr "white.exr" roughness 0.2 samples 8 traced'
 
 # A clear coat of index 1.5 mirrors 0.04 of the sky; POV-Ray adds the layers below as they are.
 coat='texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection { 0, 1 fresnel } } } interior { ior 1.5 }'
-for words in '' "$corrected" "$traced"; do
-    shows "a coat with fresnel over metal${words:+, $words}" 0.84,0.84,0.84 0.8 "$words" "$coat" ''
+for words in "$looked_up" "$corrected" "$traced"; do
+    shows "a coat with fresnel over metal, $words" 0.84,0.84,0.84 0.8 "$words" "$coat" ''
 done
 
 # Fog hides a sky that is infinitely far.  A lookup does not know of it, but of the five units before the surface.
 fog='fog { distance 10 color rgb <0.25, 0.5, 0> }'
-shows 'fog before the surface alone' 0.704898,0.803265,0.606531 1 '' '' "$fog"
+shows 'fog before the surface alone' 0.704898,0.803265,0.606531 1 "$looked_up" '' "$fog"
 shows 'fog before the sky, too' 0.25,0.5,0 1 "$traced" '' "$fog"
 shows 'fog found by correcting' 0.25,0.5,0 1 "$corrected" '' "$fog"
 
@@ -62,7 +63,7 @@ for words in "$corrected" "$traced"; do
             pigment { rgb 1 } no_image no_reflection }"
     shows "glossy metal shows glossy metal, $words" 0.4,0.4,0.4 0.5 "$words" '' \
         "plane { z, -50 pigment { rgb 1 } finish { ambient 0 diffuse 0
-            reflection { 0.8 prefiltered_environment { $glossy } } } }"
+            reflection { 0.8 prefiltered_environment { $looked_up } } } }"
 done
 
 done_testing
