@@ -278,7 +278,8 @@ static void choose_alphas(pe_maps_info *info)
     }
 }
 
-static pe_status choose_info(const pe_bake_options *options, int width, int height, pe_maps_info *info, pe_error *error)
+static pe_status choose_info(const pe_bake_options *options, double aim, int width, int height, pe_maps_info *info,
+                             pe_error *error)
 {
     static const double plus_y[3] = { 0, 1, 0 };
     const double *d = options->direction;
@@ -302,7 +303,7 @@ static pe_status choose_info(const pe_bake_options *options, int width, int heig
         return status;
     memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
     if (info->method == PE_METHOD_HEMISPHERES)
-        pe_choose_hemispheres(options, info);
+        pe_choose_hemispheres(options, aim, info);
     info->normals = info->normals ? info->normals : 42;
     info->width = info->width ? info->width : 400;
     info->height = info->height ? info->height : 200;
@@ -356,14 +357,14 @@ static pe_status prepare_multiscale(pe_baker *b, int width, int height, pe_error
     return status;
 }
 
-static pe_status prepare(pe_baker *b, int width, int height, pe_error *error)
+static pe_status prepare(pe_baker *b, double aim, int width, int height, pe_error *error)
 {
     pe_status status = check_error(b->options.error, error);
 
     if (status == PE_OK && pe_method_has_roughness(b->options.method))
         return prepare_multiscale(b, width, height, error);
     if (status == PE_OK)
-        status = choose_info(&b->options, width, height, &b->info, error);
+        status = choose_info(&b->options, aim, width, height, &b->info, error);
     if (status != PE_OK)
         return status;
     b->hemispheres = hemispheres_for(&b->info);
@@ -371,7 +372,8 @@ static pe_status prepare(pe_baker *b, int width, int height, pe_error *error)
     return status == PE_OK ? make_kernel(b, error) : status;
 }
 
-pe_status pe_baker_make(const pe_bake_options *options, int width, int height, pe_baker **out, pe_error *error)
+static pe_status make_baker(const pe_bake_options *options, double aim, int width, int height, pe_baker **out,
+                            pe_error *error)
 {
     pe_baker *b = calloc(1, sizeof *b);
     pe_status status;
@@ -381,7 +383,7 @@ pe_status pe_baker_make(const pe_bake_options *options, int width, int height, p
         return PE_ERROR_MEMORY;
     }
     b->options = *options;
-    status = prepare(b, width, height, error);
+    status = prepare(b, aim, width, height, error);
     if (status == PE_ERROR_CANCELLED)
         pe_fail(error, status, "cancelled");
     if (status == PE_OK)
@@ -389,6 +391,11 @@ pe_status pe_baker_make(const pe_bake_options *options, int width, int height, p
     else
         pe_baker_free(b);
     return status;
+}
+
+pe_status pe_baker_make(const pe_bake_options *options, int width, int height, pe_baker **out, pe_error *error)
+{
+    return make_baker(options, pe_wanted_error(options), width, height, out, error);
 }
 
 void pe_baker_free(pe_baker *b)
@@ -443,14 +450,54 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
     return status;
 }
 
-pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
+static pe_status bake_once(const pe_env *env, const pe_bake_options *options, double aim, pe_maps **maps,
+                           pe_error *error)
 {
     pe_baker *baker;
-    pe_status status = pe_baker_make(options, env->width, env->height, &baker, error);
+    pe_status status = make_baker(options, aim, env->width, env->height, &baker, error);
 
     if (status != PE_OK)
         return status;
     status = pe_baker_bake(baker, env, NULL, maps, error);
     pe_baker_free(baker);
     return status;
+}
+
+/* How hard an environment is shows in a bake only.  An error that was asked for is aimed at from above, so that easy
+ * ones have small maps; what misses it is baked again, so often at most, as long as that makes larger maps. */
+#define AIM_ABOVE 3.0
+#define AIM_BELOW 0.8
+#define AIMS 5
+
+static int is_as_large(const pe_maps *a, const pe_maps *b)
+{
+    return a->info.images == b->info.images && a->info.width == b->info.width && a->info.height == b->info.height;
+}
+
+static pe_status bake_for_error(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
+{
+    double aim = AIM_ABOVE * options->error;
+    pe_status status = bake_once(env, options, aim, maps, error);
+
+    for (int k = 1; k < AIMS && status == PE_OK && (*maps)->info.lookup_error > options->error; k++) {
+        pe_maps *before = *maps;
+        int is_final;
+
+        aim *= AIM_BELOW * options->error / before->info.lookup_error;
+        status = bake_once(env, options, aim, maps, error);
+        is_final = status == PE_OK && is_as_large(before, *maps);
+        pe_maps_free(before);
+        if (is_final)
+            break;
+    }
+    return status;
+}
+
+pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
+{
+    int has_lookups = options->method == PE_METHOD_DEFAULT || options->method == PE_METHOD_HEMISPHERES;
+
+    if (options->error > 0 && has_lookups)
+        return bake_for_error(env, options, maps, error);
+    return bake_once(env, options, pe_wanted_error(options), maps, error);
 }

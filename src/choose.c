@@ -7,6 +7,7 @@
 
 #include "disc.h"
 #include "geodesic.h"
+#include "maps.h"
 #include "ndf.h"
 
 #include <math.h>
@@ -43,21 +44,48 @@ static int side_of(double alpha, double pitch, int most)
 
 typedef struct plan {
     int frequency, width, height;
+    int pole_angles;
+    double pole_cosine;
     double bytes, error;
 } plan;
+
+/* From one normal to the next, tangents turn by their distance over that from the brush's pole.  Where that blurs a
+ * lobe `aspect` times as long as wide, maps are made for several angles; all constants by trial on photographs. */
+#define ASPECT_MIN 1.4
+#define CAP_AT_LEAST 0.55 /* of the distance between normals */
+#define CAP_BY_ASPECT 0.45
+#define CAP_SHARE 0.45       /* of images, that poles may have more */
+#define ANGLES_BY_ASPECT 1.8 /* in half a turn */
+#define ANGLES_AT_LEAST 6
+
+static void plan_poles(const pe_maps_info *info, double aspect, plan *p)
+{
+    double wanted = ANGLES_BY_ASPECT * aspect * pe_maps_turn(info) / M_PI;
+    double distance = 1.107 / p->frequency; /* an icosahedron's edge, seen from its middle, in parts */
+
+    p->pole_angles = (int)fmin(fmax(ceil(wanted), ANGLES_AT_LEAST), PE_MAPS_ANGLES_MAX);
+    p->pole_cosine =
+        fmax(cos(distance * (CAP_AT_LEAST + CAP_BY_ASPECT * (aspect - 1))), 1 - CAP_SHARE / (p->pole_angles - 1));
+}
 
 static plan make_plan(const pe_maps_info *info, int frequency, double pitch)
 {
     /* A hemisphere this wide has the environment's own resolution in its middle. */
     int most = (int)(2 * M_SQRT2 / M_PI * info->source_height + 2 * PE_DISC_MARGIN);
     plan p = { .frequency = frequency };
-    double fineness[2];
+    double fineness[2], aspect, images = 10.0 * frequency * frequency + 2;
 
     pe_ndf_fineness(&info->surface.ndf, fineness);
+    aspect = fmax(fineness[0], fineness[1]) / fmin(fineness[0], fineness[1]);
+    if (info->angles == 1 && aspect > ASPECT_MIN)
+        plan_poles(info, aspect, &p);
+    if (p.pole_angles)
+        images *= 1 + (1 - p.pole_cosine) * (p.pole_angles - 1);
     p.width = info->width ? info->width : side_of(fineness[0], pitch, most);
     p.height = info->height ? info->height : side_of(fineness[1], pitch, most);
-    p.bytes = (10.0 * frequency * frequency + 2) * info->angles * p.width * p.height * BYTES_PER_TEXEL;
-    p.error = hypot(NORMALS_ERROR * pow(frequency, -NORMALS_POWER), SPLINE_ERROR * pow(pitch, SPLINE_POWER));
+    p.bytes = images * info->angles * p.width * p.height * BYTES_PER_TEXEL;
+    p.error =
+        hypot(NORMALS_ERROR * pow(frequency, -NORMALS_POWER), SPLINE_ERROR * sqrt(aspect) * pow(pitch, SPLINE_POWER));
     return p;
 }
 
@@ -74,10 +102,25 @@ static int is_better(const plan *a, const plan *b, double wanted, double budget)
     return a->error < b->error;
 }
 
-void pe_choose_hemispheres(const pe_bake_options *options, pe_maps_info *info)
+/* How many normals a cap holds is known for certain once it is chosen: sizes that were not asked for give way. */
+static void fit_poles(const pe_maps_info *info, plan *p, double budget)
 {
-    double wanted = pe_wanted_error(options),
-           budget = budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
+    double bytes, scale;
+    int count;
+
+    if (!p->pole_angles || p->bytes > budget ||
+        pe_poles_count(p->frequency, info->direction, p->pole_cosine, &count, NULL) != PE_OK)
+        return;
+    bytes = (10.0 * p->frequency * p->frequency + 2 + count * (p->pole_angles - 1)) * p->width * p->height *
+            BYTES_PER_TEXEL;
+    scale = fmin(sqrt(budget / bytes), 1);
+    p->width = info->width ? info->width : (int)fmax(p->width * scale, PE_DISC_SIDE_MIN);
+    p->height = info->height ? info->height : (int)fmax(p->height * scale, PE_DISC_SIDE_MIN);
+}
+
+void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_info *info)
+{
+    double budget = budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
     int given = pe_geodesic_frequency(info->normals);
     plan best = make_plan(info, given ? given : 2, PITCH_MAX);
 
@@ -86,13 +129,16 @@ void pe_choose_hemispheres(const pe_bake_options *options, pe_maps_info *info)
             double pitch = PITCH_MAX * pow(PITCH_MIN / PITCH_MAX, (double)step / PITCH_STEPS);
             plan p = make_plan(info, f, pitch);
 
-            if (is_better(&p, &best, wanted, budget))
+            if (is_better(&p, &best, aim, budget))
                 best = p;
         }
     if (!info->normals)
         info->normals = 10 * best.frequency * best.frequency + 2;
+    fit_poles(info, &best, budget);
     info->width = best.width;
     info->height = best.height;
+    info->pole_angles = best.pole_angles;
+    info->pole_cosine = best.pole_cosine;
 }
 
 void pe_choose_fine_size(const pe_ndf *ndf, int *width, int *height)

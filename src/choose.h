@@ -7,10 +7,10 @@
 /* The relative error to aim at: what the options ask for, or what their quality means. */
 double pe_wanted_error(const pe_bake_options *options);
 
-/* Completes info's normals, width and height for hemispheres, as far as they are 0, for an environment of info's source
- * size: the least memory that reaches the wanted error, and if none does within the quality's budget, the
- * least error within it. */
-void pe_choose_hemispheres(const pe_bake_options *options, pe_maps_info *info);
+/* Completes info's normals, width and height for hemispheres, as far as they are 0, and the angles at its poles, for an
+ * environment of info's source size: the least memory that should reach the error `aim`, and if none does within the
+ * quality's budget, the least error within it. */
+void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_info *info);
 
 /* A width and height for hemispheres whose splines follow the lobe to about a tenth of a percent. */
 void pe_choose_fine_size(const pe_ndf *ndf, int *width, int *height);

@@ -59,6 +59,12 @@ static pe_status check_direction(const double d[3], pe_error *error)
 
 static pe_status check_angles(const pe_maps_info *info, pe_error *error)
 {
+    if (info->pole_angles &&
+        (info->method != PE_METHOD_HEMISPHERES || info->angles != 1 || info->pole_angles < PE_MAPS_ANGLES_MIN ||
+         info->pole_angles > PE_MAPS_ANGLES_MAX || !(info->pole_cosine > 0 && info->pole_cosine < 1)))
+        return pe_fail(error, PE_ERROR_ARGUMENT,
+                       "%d angles at normals within a cosine of %g of the brush direction are out of range",
+                       info->pole_angles, info->pole_cosine);
     if (info->angles == 1)
         return PE_OK;
     if (info->method != PE_METHOD_HEMISPHERES)
@@ -96,7 +102,18 @@ static pe_status check_size(const pe_maps_info *info, pe_error *error)
     return PE_OK;
 }
 
-static void count_images(pe_maps_info *info)
+static pe_status count_hemispheres(pe_maps_info *info, pe_error *error)
+{
+    int poles = 0;
+    pe_status status = PE_OK;
+
+    if (info->pole_angles)
+        status = pe_poles_count(info->frequency, info->direction, info->pole_cosine, &poles, error);
+    info->images = info->normals * info->angles + poles * (info->pole_angles - 1);
+    return status;
+}
+
+static pe_status count_images(pe_maps_info *info, pe_error *error)
 {
     if (info->method == PE_METHOD_BASELINE)
         info->normals = 0;
@@ -104,8 +121,7 @@ static void count_images(pe_maps_info *info)
     switch (info->method) {
     case PE_METHOD_DEFAULT:
     case PE_METHOD_HEMISPHERES:
-        info->images = info->normals * info->angles;
-        break;
+        return count_hemispheres(info, error);
     case PE_METHOD_REPRESENTATIVE:
         info->images = info->normals / 2;
         break;
@@ -118,6 +134,7 @@ static void count_images(pe_maps_info *info)
         info->images = info->smoothness.size;
         break;
     }
+    return PE_OK;
 }
 
 static pe_status check_roughness(const pe_maps_info *info, pe_error *error)
@@ -159,8 +176,8 @@ pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
         status = check_roughness(info, error);
     if (status != PE_OK)
         return status;
-    count_images(info);
-    return check_size(info, error);
+    status = count_images(info, error);
+    return status == PE_OK ? check_size(info, error) : status;
 }
 
 static pe_status allocate(pe_maps *maps, const char *source_name, const char *ndf_name, pe_error *error)
@@ -174,6 +191,8 @@ static pe_status allocate(pe_maps *maps, const char *source_name, const char *nd
         status = pe_geodesic_make(maps->info.frequency, &maps->geodesic, error);
     if (status == PE_OK && maps->info.method == PE_METHOD_LAYERS)
         status = pe_layers_make(maps, error);
+    if (status == PE_OK && maps->info.pole_angles)
+        status = pe_poles_make(maps->geodesic, maps->info.direction, maps->info.pole_cosine, &maps->poles, error);
     if (status != PE_OK)
         return status;
     maps->source_name = strdup(source_name ? source_name : "");
@@ -217,6 +236,7 @@ void pe_maps_free(pe_maps *maps)
     pe_grid_free(&maps->grid);
     pe_denominator_free(maps->denominator);
     pe_layers_free(maps);
+    pe_poles_free(&maps->poles);
     free(maps->source_name);
     free(maps->ndf_name);
     free(maps->rgb);
@@ -262,8 +282,10 @@ size_t pe_maps_values(const pe_maps *maps)
 void pe_maps_normal(const pe_maps *maps, int k, double n[3])
 {
     static const double up[3] = { 0, 1, 0 };
-    int vertex = maps->info.method == PE_METHOD_HEMISPHERES ? k / maps->info.angles : 2 * k;
+    int vertex = 2 * k, angle;
 
+    if (maps->info.method == PE_METHOD_HEMISPHERES)
+        pe_maps_place_of(maps, k, &vertex, &angle);
     memcpy(n, maps->geodesic ? pe_geodesic_vertex(maps->geodesic, vertex) : up, 3 * sizeof *n);
 }
 
@@ -271,11 +293,13 @@ void pe_maps_normal(const pe_maps *maps, int k, double n[3])
 
 void pe_maps_frame(const pe_maps *maps, int k, pe_frame *frame)
 {
-    double n[3], turn = pe_maps_turn(&maps->info) * (k % maps->info.angles) / maps->info.angles;
+    int vertex, angle;
+    double turn;
     pe_frame still;
 
-    pe_maps_normal(maps, k, n);
-    pe_frame_make(n, maps->info.direction, &still);
+    pe_maps_place_of(maps, k, &vertex, &angle);
+    turn = pe_maps_turn(&maps->info) * angle / pe_maps_angles_at(maps, vertex);
+    pe_frame_make(pe_geodesic_vertex(maps->geodesic, vertex), maps->info.direction, &still);
     *frame = still;
     for (int c = 0; c < 3; c++) {
         frame->t[c] = cos(turn) * still.t[c] + sin(turn) * still.b[c];
@@ -288,7 +312,7 @@ static void set_frames(pe_maps *maps)
     for (int vertex = 0; vertex < maps->info.normals; vertex++) {
         pe_frame frame;
 
-        pe_maps_frame(maps, vertex * maps->info.angles, &frame);
+        pe_maps_frame(maps, pe_maps_image_at(maps, vertex, 0), &frame);
         for (int c = 0; c < 3; c++) {
             maps->frames[vertex][0][c] = (float)frame.t[c];
             maps->frames[vertex][1][c] = (float)frame.b[c];
@@ -299,8 +323,10 @@ static void set_frames(pe_maps *maps)
 
 static void set_turns(pe_maps *maps)
 {
-    for (int k = 0; k < maps->info.angles; k++) {
-        double angle = pe_maps_turn(&maps->info) * k / maps->info.angles;
+    int angles = maps->info.pole_angles ? maps->info.pole_angles : maps->info.angles;
+
+    for (int k = 0; k < angles; k++) {
+        double angle = pe_maps_turn(&maps->info) * k / angles;
 
         maps->turns[k][0] = (float)cos(angle);
         maps->turns[k][1] = (float)sin(angle);

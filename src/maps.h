@@ -6,6 +6,7 @@
 #include "disc.h"
 #include "env.h"
 #include "geodesic.h"
+#include "poles.h"
 #include "prefenv.h"
 #include "suns.h"
 #include "vector.h"
@@ -37,6 +38,7 @@ struct pe_maps {
     /* Hemispheres. */
     pe_disc disc;
     pe_suns suns;
+    pe_poles poles;                     /* none unless info.pole_angles */
     float (*frames)[3][3];              /* t, b, n of every vertex */
     float turns[PE_MAPS_ANGLES_MAX][2]; /* cosine and sine of every angle */
     float *coefficients;                /* cubic splines through the images; one float more at the end */
@@ -88,6 +90,39 @@ pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error);
 static inline double pe_maps_turn(const pe_maps_info *info)
 {
     return info->surface.ndf.kind == PE_NDF_TABLE ? 2 * M_PI : M_PI;
+}
+
+/* Hemispheres: for how many brush angles there are images of a vertex. */
+static inline int pe_maps_angles_at(const pe_maps *maps, int vertex)
+{
+    if (maps->info.angles > 1 || !maps->poles.count || maps->poles.ranks[vertex] < 0)
+        return maps->info.angles;
+    return maps->info.pole_angles;
+}
+
+/* Their numbers: each vertex's angles one after the other; or angle 0 of all vertices, then the rest of those at the
+ * poles. */
+static inline int pe_maps_image_at(const pe_maps *maps, int vertex, int angle)
+{
+    if (maps->info.angles > 1)
+        return vertex * maps->info.angles + angle;
+    if (angle == 0)
+        return vertex;
+    return maps->info.normals + maps->poles.ranks[vertex] * (maps->info.pole_angles - 1) + angle - 1;
+}
+
+/* The reverse. */
+static inline void pe_maps_place_of(const pe_maps *maps, int image, int *vertex, int *angle)
+{
+    int extra = image - maps->info.normals, extras = maps->info.pole_angles - 1;
+
+    if (maps->info.angles > 1) {
+        *vertex = image / maps->info.angles;
+        *angle = image % maps->info.angles;
+    } else {
+        *vertex = extra < 0 ? image : maps->poles.vertices[extra / extras];
+        *angle = extra < 0 ? 0 : 1 + extra % extras;
+    }
 }
 
 /* The tangent frame of image k of hemispheres: its vertex's, turned about the normal by its angle. */

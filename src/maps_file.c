@@ -8,8 +8,9 @@
  * Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
  * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
- * :lookupError, :suns, :turn (the degrees that the angles divide), and for each sun :sun.00.direction and
- * :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold and :lost. */
+ * :lookupError, :poleAngles, :poleCosine, :suns, :turn (the degrees that the angles divide), and for each sun
+ * :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold
+ * and :lost. */
 #include "atlas.h"
 #include "exr.h"
 #include "maps.h"
@@ -29,7 +30,7 @@ static const char *const ndf_names[] = PE_NDF_NAMES;
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 #define PART_NAME_MAX 32
 #define ATTRIBUTES 17
-#define HEMISPHERE_ATTRIBUTES 6
+#define HEMISPHERE_ATTRIBUTES 8
 #define ROUGHNESS_ATTRIBUTES 7
 #define SUN_NAME_MAX 40
 
@@ -88,9 +89,14 @@ static int turn_of(const pe_maps_info *info)
 static void describe_hemispheres(const pe_maps_info *info, pe_attribute out[HEMISPHERE_ATTRIBUTES])
 {
     const pe_attribute all[HEMISPHERE_ATTRIBUTES] = {
-        integer("prefenv:angles", info->angles), integer("prefenv:width", info->width),
-        integer("prefenv:height", info->height), number("prefenv:lookupError", info->lookup_error),
-        integer("prefenv:suns", info->suns),     integer("prefenv:turn", turn_of(info)),
+        integer("prefenv:angles", info->angles),
+        integer("prefenv:width", info->width),
+        integer("prefenv:height", info->height),
+        number("prefenv:lookupError", info->lookup_error),
+        integer("prefenv:suns", info->suns),
+        integer("prefenv:turn", turn_of(info)),
+        integer("prefenv:poleAngles", info->pole_angles),
+        number("prefenv:poleCosine", info->pole_cosine),
     };
 
     memcpy(out, all, sizeof all);
@@ -377,6 +383,7 @@ static pe_status check_turn(const header *from, const pe_maps_info *info)
 /* What hemispheres have besides. */
 static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
 {
+    pe_attribute poles = integer("prefenv:poleAngles", 0);
     pe_status status = PE_OK;
 
     info->angles = 1;
@@ -386,6 +393,10 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
     AND_THEN(get_integer(from, "prefenv:width", &info->width))
     AND_THEN(get_integer(from, "prefenv:height", &info->height))
     AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
+    if (pe_exr_get_attribute(from->file, 0, &poles))
+        info->pole_angles = poles.integer;
+    if (info->pole_angles)
+        AND_THEN(get_number(from, "prefenv:poleCosine", &info->pole_cosine))
     AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
     AND_THEN(check_turn(from, info))
     if (status == PE_OK && info->suns && !pe_suns_possible(&info->surface))

@@ -483,12 +483,14 @@ typedef struct pe_maps_info {
     pe_surface surface;   /* of a table its name and alphas are kept, not itself: ndf.table is NULL */
     const char *ndf_name; /* the table's; "" if there is none */
     double direction[3];
-    int normals;       /* 0 for baseline */
-    int frequency;     /* of the geodesic sphere; 0 for baseline */
-    int angles;        /* brush directions, half a turn / angles apart, of a table a turn; 1: `direction` alone */
-    int images;        /* held: normals * angles; lat-long: normals / 2, or 1 */
-    int width, height; /* of each */
-    int suns;          /* lights kept apart from the images */
+    int normals;        /* 0 for baseline */
+    int frequency;      /* of the geodesic sphere; 0 for baseline */
+    int angles;         /* brush directions, half a turn / angles apart, of a table a turn; 1: `direction` alone */
+    int pole_angles;    /* hemispheres of one angle: brush directions of the normals about the brush; 0: one, too */
+    double pole_cosine; /* those normals n have |n.direction| above this */
+    int images;         /* held: normals * angles, and what the poles have more; lat-long: normals / 2, or 1 */
+    int width, height;  /* of each */
+    int suns;           /* lights kept apart from the images */
     const char *source_name;
     int source_width, source_height;
     pe_accuracy accuracy;     /* EXACT or FAST */
@@ -538,8 +540,9 @@ pe_status pe_baker_bake_frames(const pe_baker *baker, const pe_env *const *envs,
                                const pe_bake_errors *errors, pe_maps **maps, pe_error *error);
 
 /* Image k, 3 * width * height floats; of layers each has its own size: pe_maps_image_size.
- * Hemispheres: that of the normal n_k/angles with its brush turned by k % angles; src/disc.h says which texel looks
- * where, those beyond the horizon carry on as the last within.  Suns are not in it.
+ * Hemispheres: that of the normal n_k/angles with its brush turned by k % angles, half a turn being `angles`; of one
+ * angle those with the brush as it is, n_k, before pole_angles - 1 for each normal at the poles.  src/disc.h says which
+ * texel looks where, those beyond the horizon carry on as the last within.  Suns are not in it.
  * Lat-long: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k.
  * Layers: lat-long, what Phong's lobe of the exponent pe_maps_image_exponent gathers about each direction; the
  * smoothest first.

@@ -59,7 +59,7 @@ int pe_suns_possible(const pe_surface *surface)
  * than a texel, which else is no point. */
 #define SHARE_MIN 0.05
 #define DIM 0.004
-#define STILL_DIM 0.1
+#define STILL_DIM 0.2
 
 static int count_suns(const pe_env *env, const pe_ndf *ndf, const ranking *r, double total)
 {

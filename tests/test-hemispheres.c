@@ -571,6 +571,82 @@ static void test_brush_of_table(void)
     pe_env_free(env);
 }
 
+/* ---- the brush's poles ---- */
+
+/* A viewer of a normal within 8 degrees of the brush. */
+static void pole_view(unsigned *state, const double direction[3], double n[3], double o[3])
+{
+    double axis[3];
+
+    pe_normalize(direction, axis);
+    do
+        random_view(state, 0.3, n, o);
+    while (!(fabs(pe_dot(n, axis)) > cos(8 * M_PI / 180)));
+}
+
+/* About the brush's poles, where tangents turn fast, lookups are as good as a few angles more make them: without those
+ * the error is three times the bound.  And a file keeps the angles. */
+static void test_poles(void)
+{
+    enum { WIDTH = 128, HEIGHT = 64, VIEWS = 1500 };
+    char path[] = "/tmp/prefenv-test-hemispheres-XXXXXX";
+    const pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.1, NULL },
+                                      .direction = { aslant[0], aslant[1], aslant[2] } };
+    pe_env *env = make_env(WIDTH, HEIGHT, reference_room(WIDTH, HEIGHT));
+    pe_maps *maps = bake(env, &options), *back = NULL;
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    difference d = { 0, 0, 0 }, kept = { 0, 0, 0 };
+    unsigned state = 8;
+
+    close(mkstemp(path));
+    need(pe_maps_write(maps, path, PE_PIXEL_FLOAT, NULL) == PE_OK && pe_maps_read(path, &back, NULL) == PE_OK, "%s",
+         path);
+    unlink(path);
+    for (int k = 0; k < VIEWS; k++) {
+        double n[3], o[3], got[3], again[3], expected[3];
+
+        pole_view(&state, aslant, n, o);
+        pe_exact(env, &options.surface, aslant, n, o, expected);
+        sample_point(maps, NULL, NULL, n, o, got);
+        sample_point(back, NULL, NULL, n, o, again);
+        compare(got, expected, &d);
+        compare(again, got, &kept);
+    }
+    ok(relative(&d) < 0.05 && info->images > info->normals,
+       "%d normals, %d images: within 8 degrees of the brush, %.2f %%", info->normals, info->images,
+       100 * relative(&d));
+    ok(kept.worst < 1e-6 && pe_maps_get_info(back)->images == info->images, "a file keeps them: within %.1e",
+       kept.worst);
+    pe_maps_free(back);
+    pe_maps_free(maps);
+    pe_env_free(env);
+}
+
+/* ---- errors asked for ---- */
+
+/* What is asked for is reached, with no more than it takes. */
+static void test_error(void)
+{
+    enum { WIDTH = 128, HEIGHT = 64 };
+    static const double wanted[] = { 0.006, 0.06 };
+    pe_env *env = make_studio(WIDTH, HEIGHT);
+    size_t texels[2];
+
+    for (int k = 0; k < 2; k++) {
+        const pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.2, 0.2, NULL }, .error = wanted[k] };
+        pe_maps *maps = bake(env, &options);
+        const pe_maps_info *info = pe_maps_get_info(maps);
+
+        texels[k] = (size_t)info->images * (size_t)info->width * (size_t)info->height;
+        ok(info->lookup_error <= wanted[k] && info->error_wanted == wanted[k],
+           "asked for %g %%: %.2g %% with %zu texels", 100 * wanted[k], 100 * info->lookup_error, texels[k]);
+        pe_maps_free(maps);
+    }
+    ok(3 * texels[1] < texels[0], "ten times the error takes 1/%.1f of the texels",
+       (double)texels[0] / (double)texels[1]);
+    pe_env_free(env);
+}
+
 /* ---- files ---- */
 
 /* Half floats have 11 bits, and where suns are, they are as they were. */
@@ -639,6 +715,8 @@ int main(void)
     test_continuity(6);
     test_brush(0.3, 0.1, 12);
     test_brush_of_table();
+    test_poles();
+    test_error();
     test_file(PE_PIXEL_HALF, 1e-3);
     test_file(PE_PIXEL_FLOAT, 1e-6);
     return done_testing();

@@ -31,13 +31,18 @@ static int fail(batch *b, const pe_error *error)
 
 /* ---- bake and write ---- */
 
+static void show_progress(batch *b)
+{
+    b->options.progress = progress_is_visible() && !b->quiet ? draw_progress : NULL;
+    b->options.progress_data = b;
+    progress_begin(&b->bar);
+}
+
 static pe_status make_baker(batch *b, const pe_env *env, pe_error *error)
 {
     if (b->baker)
         return PE_OK;
-    b->options.progress = progress_is_visible() && !b->quiet ? draw_progress : NULL;
-    b->options.progress_data = b;
-    progress_begin(&b->bar);
+    show_progress(b);
     return pe_baker_make(&b->options, pe_env_width(env), pe_env_height(env), &b->baker, error);
 }
 
@@ -295,9 +300,8 @@ static int bake_alone(batch *b, batch_frame *f)
 {
     note_flaws(b, f->environment, f->env);
     b->baking = 1;
-    f->status = make_baker(b, f->env, &f->error);
-    if (f->status == PE_OK)
-        f->status = pe_baker_bake(b->baker, f->env, NULL, &f->maps, &f->error);
+    show_progress(b);
+    f->status = pe_bake(f->env, &b->options, &f->maps, &f->error);
     return f->status == PE_OK ? write_frames(b, 1) : fail(b, &f->error);
 }
 
