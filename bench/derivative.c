@@ -4,8 +4,8 @@
  * file.  Above is the sphere, below the second derivative of its luminance, |d2L/dx2| + |d2L/dy2|, in which an edge of
  * facets or a seam is a bright line.  All columns are scaled alike.
  *
- * The spheres are drawn by the lookup that the renderer calls, in doubles: the half floats of its OpenEXR files would be
- * all that their second derivative shows.
+ * The spheres are drawn by the lookup that the renderer calls, in doubles: of the half floats in its OpenEXR files the
+ * second derivative would show nothing but the rounding.
  *
  * Of each file it prints the root mean square of that derivative, per square of the radius and relative to the mean
  * luminance, over what faces the viewer: by differences a pixel wide, and a quarter of one.  Where there are no kinks
