@@ -2,8 +2,9 @@
  *
  * In a lat-long picture the texels that have weight for a direction lie in a few rows, in each between two columns.
  * The sum runs along them, 16 at a time.  Turned about the pole by a number of columns a lobe has the same weights, so
- * that they are worked out once for all texels of a row that lie alike over the environment's.  A layer reads the environment at a size whose texels are a good deal narrower
- * than its lobe; what is left out is below e^-CUTOFF of the lobe's peak. */
+ * that they are worked out once for all texels of a row that lie alike over the environment's.  A layer reads the
+ * environment at a size whose texels are a good deal narrower than its lobe; what is left out is below e^-CUTOFF of the
+ * lobe's peak. */
 #include "layers.h"
 
 #include "lanes.h"

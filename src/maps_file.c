@@ -335,18 +335,32 @@ static pe_status get_vector(const header *from, int part, const char *name, doub
     return PE_OK;
 }
 
+#define SHOWN_BYTES 41
+
+/* The first characters of a text that may hold anything, fit for one line. */
+static void show(const char *text, char shown[SHOWN_BYTES])
+{
+    int k = 0;
+
+    for (; k < SHOWN_BYTES - 1 && text[k]; k++)
+        shown[k] = (char)(text[k] >= 0 && text[k] < ' ' ? '?' : text[k]);
+    shown[k] = '\0';
+}
+
 /* The index of a string attribute among `names`. */
 static pe_status get_choice(const header *from, const char *name, const char *const *names, int count, int *value)
 {
     pe_attribute a = string(name, NULL);
+    char shown[SHOWN_BYTES];
 
     if (!pe_exr_get_attribute(from->file, 0, &a))
         return missing(from, name);
     for (*value = 0; *value < count; ++*value)
         if (strcmp(a.string, names[*value]) == 0)
             return PE_OK;
-    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s '%.40s' is not known to this version of prefenv", from->name,
-                   name, a.string);
+    show(a.string, shown);
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s '%s' is not known to this version of prefenv", from->name,
+                   name, shown);
 }
 
 static pe_status check_version(const header *from)

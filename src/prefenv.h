@@ -580,8 +580,8 @@ typedef enum pe_interpolation {
 typedef struct pe_sampling {
     pe_interpolation interpolation;
     double exponent; /* Eq. 7's a, for weighted; 0: 50 (f / 2)^2 */
-    /* Of layers and voxels, which hold whole lobes: DARK takes the share of even light that the surface lets through, MEAN
-     * and IGNORED take all.  Other maps know of the horizon by themselves. */
+    /* Of layers and voxels, which hold whole lobes: DARK takes the share of even light that the surface lets through,
+     * MEAN and IGNORED take all.  Other maps know of the horizon by themselves. */
     pe_horizon horizon;
 } pe_sampling;
 

@@ -1,5 +1,5 @@
-/* lines.h - lines "nx ny nz ox oy oz", or with a roughness and "dx dy dz" besides, from standard input, "R G B" a line to standard
- * output, in order.
+/* lines.h - lines "nx ny nz ox oy oz", or with a roughness and "dx dy dz" besides, from standard input, "R G B" a line
+ * to standard output, in order.
  *
  * The calling thread reads and cuts the input into blocks of whole lines, workers compute blocks, one thread writes
  * them in order.  A ring of blocks bounds the memory.  Whatever whole lines have arrived are computed at once, so that
