@@ -474,22 +474,61 @@ static int is_as_large(const pe_maps *a, const pe_maps *b)
     return a->info.images == b->info.images && a->info.width == b->info.width && a->info.height == b->info.height;
 }
 
-static pe_status bake_for_error(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
+/* A bake that may not be the last: each is told of as half of what is left. */
+typedef struct attempt {
+    const pe_bake_options *asked;
+    double begin, share;
+} attempt;
+
+static int report_attempt(double fraction, void *data)
 {
-    double aim = AIM_ABOVE * options->error;
-    pe_status status = bake_once(env, options, aim, maps, error);
+    const attempt *a = data;
 
-    for (int k = 1; k < AIMS && status == PE_OK && (*maps)->info.lookup_error > options->error; k++) {
+    return a->asked->progress(a->begin + a->share * fraction, a->asked->progress_data);
+}
+
+static pe_status bake_attempt(const pe_env *env, attempt *a, double aim, pe_maps **maps, pe_error *error)
+{
+    pe_bake_options options = *a->asked;
+
+    a->share = (1 - a->begin) / 2;
+    if (options.progress)
+        options.progress = report_attempt;
+    options.progress_data = a;
+    *maps = NULL;
+    return bake_once(env, &options, aim, maps, error);
+}
+
+static pe_status bake_until(const pe_env *env, attempt *a, pe_maps **maps, pe_error *error)
+{
+    double wanted = a->asked->error, aim = AIM_ABOVE * wanted;
+    pe_status status = bake_attempt(env, a, aim, maps, error);
+    int is_final = 0;
+
+    for (int k = 1; k < AIMS && status == PE_OK && !is_final && (*maps)->info.lookup_error > wanted; k++) {
         pe_maps *before = *maps;
-        int is_final;
 
-        aim *= AIM_BELOW * options->error / before->info.lookup_error;
-        status = bake_once(env, options, aim, maps, error);
+        aim *= AIM_BELOW * wanted / before->info.lookup_error;
+        a->begin += a->share;
+        status = bake_attempt(env, a, aim, maps, error);
         is_final = status == PE_OK && is_as_large(before, *maps);
         pe_maps_free(before);
-        if (is_final)
-            break;
     }
+    return status;
+}
+
+static pe_status bake_for_error(const pe_env *env, const pe_bake_options *options, pe_maps **out, pe_error *error)
+{
+    attempt a = { options, 0, 0 };
+    pe_maps *maps;
+    pe_status status = bake_until(env, &a, &maps, error);
+
+    if (status == PE_OK && options->progress && options->progress(1, options->progress_data)) {
+        pe_maps_free(maps);
+        status = pe_fail(error, PE_ERROR_CANCELLED, "cancelled");
+    }
+    if (status == PE_OK)
+        *out = maps;
     return status;
 }
 

@@ -64,8 +64,8 @@ static void plan_poles(const pe_maps_info *info, double aspect, plan *p)
     double distance = 1.107 / p->frequency; /* an icosahedron's edge, seen from its middle, in parts */
 
     p->pole_angles = (int)fmin(fmax(ceil(wanted), ANGLES_AT_LEAST), PE_MAPS_ANGLES_MAX);
-    p->pole_cosine =
-        fmax(cos(distance * (CAP_AT_LEAST + CAP_BY_ASPECT * (aspect - 1))), 1 - CAP_SHARE / (p->pole_angles - 1));
+    p->pole_cosine = fmax(cos(fmin(distance * (CAP_AT_LEAST + CAP_BY_ASPECT * (aspect - 1)), M_PI / 2)),
+                          1 - CAP_SHARE / (p->pole_angles - 1));
 }
 
 static plan make_plan(const pe_maps_info *info, int frequency, double pitch)

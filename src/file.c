@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +158,23 @@ static pe_status write_file(const char *path, const struct stat *replaced, const
     return status;
 }
 
+/* The thread's signals that end a program wait meanwhile, so that no part of a file stays behind. */
+static pe_status write_guarded(const char *path, const struct stat *replaced, const void *bytes, size_t size,
+                               pe_error *error)
+{
+    sigset_t ends, before;
+    pe_status status;
+
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    sigaddset(&ends, SIGTERM);
+    sigaddset(&ends, SIGHUP);
+    pthread_sigmask(SIG_BLOCK, &ends, &before);
+    status = write_file(path, replaced, bytes, size, error);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return status;
+}
+
 pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_error *error)
 {
     struct stat about;
@@ -166,7 +184,7 @@ pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_err
     if (stat(path, &about) != 0) {
         if (lstat(path, &about) == 0)
             return pe_fail(error, PE_ERROR_FILE, "%s: is a link to nothing; remove it or make what it points to", path);
-        return write_file(path, NULL, bytes, size, error);
+        return write_guarded(path, NULL, bytes, size, error);
     }
     if (S_ISDIR(about.st_mode))
         return pe_fail(error, PE_ERROR_FILE, "%s: is a folder, not a file", path);
@@ -176,7 +194,7 @@ pe_status pe_file_write(const char *path, const void *bytes, size_t size, pe_err
     target = realpath(path, NULL);
     if (!target)
         return file_error(error, path, "follow");
-    status = write_file(target, &about, bytes, size, error);
+    status = write_guarded(target, &about, bytes, size, error);
     free(target);
     return status;
 }

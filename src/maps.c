@@ -115,7 +115,7 @@ static pe_status count_hemispheres(pe_maps_info *info, pe_error *error)
 
 static pe_status count_images(pe_maps_info *info, pe_error *error)
 {
-    if (info->method == PE_METHOD_BASELINE)
+    if (info->method != PE_METHOD_HEMISPHERES && info->method != PE_METHOD_REPRESENTATIVE)
         info->normals = 0;
     info->frequency = pe_geodesic_frequency(info->normals);
     switch (info->method) {

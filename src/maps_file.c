@@ -363,14 +363,16 @@ static pe_status get_choice(const header *from, const char *name, const char *co
                    name, shown);
 }
 
-static pe_status check_version(const header *from)
+static pe_status read_version(const header *from, int *out)
 {
     int version = 0;
     pe_status status = get_integer(from, "prefenv:version", &version);
 
     if (status == PE_OK && (version < PE_MAPS_FORMAT_VERSION_MIN || version > PE_MAPS_FORMAT_VERSION))
-        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: format version %d is not the %d read here; bake it again",
-                       from->name, version, PE_MAPS_FORMAT_VERSION);
+        return pe_fail(from->error, PE_ERROR_FORMAT,
+                       "%s: format version %d is not one of the %d to %d read here; bake it again", from->name, version,
+                       PE_MAPS_FORMAT_VERSION_MIN, PE_MAPS_FORMAT_VERSION);
+    *out = version;
     return status;
 }
 
@@ -468,9 +470,10 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
     pe_attribute wanted = number("prefenv:errorWanted", 0);
     int method = 0, weight = 0, kind = 0, accuracy = 0;
-    pe_status status = check_version(from);
+    pe_status status;
 
-    *info = (pe_maps_info){ .format_version = PE_MAPS_FORMAT_VERSION };
+    *info = (pe_maps_info){ .format_version = 0 };
+    status = read_version(from, &info->format_version);
     AND_THEN(get_choice(from, "prefenv:method", method_names, COUNT(method_names), &method))
     AND_THEN(get_choice(from, "prefenv:weight", weight_names, COUNT(weight_names), &weight))
     AND_THEN(get_vector(from, 0, "prefenv:eta", info->surface.eta))
@@ -665,6 +668,7 @@ static pe_status read_file(const header *from, pe_maps **out)
                        inner.message);
     status = has_atlas(&info) ? read_atlases(from, maps) : read_latlong(from, maps);
     AND_THEN(pe_maps_finish(maps, 0, from->error))
+    maps->info.format_version = info.format_version;
     if (status == PE_OK)
         *out = maps;
     else

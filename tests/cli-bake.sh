@@ -175,6 +175,12 @@ refused "no name" "the output's name is empty" ""
 refused "a PNG" "x.y.png: what is written is an OpenEXR; name it so, x.y.exr" x.y.png
 refused "a TIFF" "x.TIFF: what is written is an OpenEXR; name it so, x.exr" x.TIFF
 refused "a full device" "/dev/full: cannot write: No space left on device" /dev/full
+
+mkdir short
+# shellcheck disable=SC2086
+said=$(ulimit -f 1 && "$PREFENV" bake env.exr -o short/s.exr --normals 42 --fast --quiet 2>&1)
+is "$? $said" "2 prefenv: bake: short/s.exr: cannot write: File too large" "a file that may not grow"
+is "$(ls -A short)" "" "and nothing is left of it"
 if [ "$(id -u)" -ne 0 ]; then
     mkdir closed && chmod a-w closed
     refused "a folder closed to us" "closed/x.exr: cannot write into its folder" closed/x.exr

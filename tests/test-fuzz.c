@@ -257,6 +257,8 @@ static int loads_or_says(const unsigned char *bytes, size_t size, int *loaded)
         static const double n[3] = { 1, 2, 3 }, o[3] = { 1, 2, -0.5 };
         double rgb[3];
 
+        for (int k = 0; k < pe_maps_get_info(maps)->images; k++)
+            pe_maps_normal(maps, k, rgb);
         sample_point(maps, NULL, NULL, n, n, rgb);
         sample_point(maps, NULL, o, n, o, rgb);
         pe_maps_free(maps);

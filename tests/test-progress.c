@@ -90,6 +90,8 @@ int main(void)
     test_bake("hemispheres light by light", env,
               (pe_bake_options){ .surface = { .ndf = { PE_NDF_GGX, 0.2, 0.2, NULL }, .weight = PE_WEIGHT_MICROFACET },
                                  .normals = 12 });
+    test_bake("hemispheres for an error", env,
+              (pe_bake_options){ .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.3, NULL }, .error = 0.002 });
     test_bake("a baseline map", env, (pe_bake_options){ .method = PE_METHOD_BASELINE, .width = 100, .height = 50 });
     pe_env_free(env);
     return done_testing();

@@ -126,6 +126,7 @@ static int check_roughness(const bake_settings *settings)
         { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0, 0, 1 },
         { "material", settings->surface.material != NULL, 0, 0, 1 },
         { "error", settings->error > 0, 1, 0, 1 },
+        { "quality", settings->quality != PE_QUALITY_NORMAL, 1, 0, 1 },
         { "threshold", settings->threshold > 0, 0, 1, 0 },
         { "no-renormalise", settings->no_renormalise, 0, 1, 0 },
         { "weights", settings->weights != NULL, 0, 1, 0 },

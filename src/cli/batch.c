@@ -216,6 +216,7 @@ static int is_same_surface(const pe_maps_info *a, const pe_maps_info *b)
 static int is_same_bake(const pe_maps_info *a, const pe_maps_info *b)
 {
     return is_same_surface(a, b) && a->method == b->method && a->normals == b->normals && a->angles == b->angles &&
+           a->pole_angles == b->pole_angles && a->pole_cosine == b->pole_cosine && a->images == b->images &&
            a->width == b->width && a->height == b->height && a->accuracy == b->accuracy &&
            a->error_wanted == b->error_wanted && a->smoothness.size == b->smoothness.size &&
            a->smoothness.window == b->smoothness.window && a->smoothness.levels == b->smoothness.levels &&

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -83,6 +84,7 @@ int main(int argc, char **argv)
     const cli_command *command;
 
     hold_standard_streams();
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error as any other */
     if (argc < 2) {
         cli_error(NULL, "no command given; see 'prefenv --help'");
         return CLI_FAILURE;
