@@ -88,6 +88,9 @@ floor="0 0 -1 0 1 -0.01"
 dark=$(phong_of "$floor 0.02" --horizon dark) mean=$(phong_of "$floor 0.02" --horizon mean)
 is "$(holds "$dark < 0.7 && $mean >= 1 && $(phong_of "$floor 0.02") >= 1")" 1 \
     "exact --phong --horizon: dark, mean, ignored"
+like "$(phong_of "$lit 1" --alpha 0.3)" "exact: --alpha does not go with --phong" "exact --phong: another lobe"
+like "$("$PREFENV" exact spot.exr --horizon dark </dev/null 2>&1)" "exact: --horizon is for --phong; give both" \
+    "exact: --horizon of another lobe"
 like "$(phong_of "0 0 1 0 1 1")" "6 values; seven are wanted: nx ny nz ox oy oz roughness, or ten, with" \
     "exact --phong: no roughness"
 like "$(phong_of "0 0 1 0 1 1 rough")" 'roughness is "rough", which is not a number' "exact --phong: a word for it"

@@ -64,4 +64,9 @@ for input in missing.exr . 'a "city".hdr' plain.exr truncated.exr empty.exr; do
     like "$said" "^prefenv: info: $input: ." "$input: the line names it"
 done
 
+"$PREFENV" bake 'a "city".hdr' -o brushed.exr --alpha 0.3,0.1 --fast --quiet || bail_out "bake does not work"
+like "$("$PREFENV" info brushed.exr)" 'poles +[0-9]+ brush directions for normals within [0-9.]+ degrees of the brush' \
+    "brushed maps: poles"
+is "$("$PREFENV" info --json brushed.exr | jq '.images > .normals and .pole_angles > 1')" true "and in JSON"
+
 done_testing

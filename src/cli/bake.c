@@ -55,8 +55,7 @@ static const cli_option options[] = {
       "the maps file to write, an OpenEXR; it appears whole or not at all" },
     { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, NULL, 0,
       "hemispheres (the default): a picture of its hemisphere for each normal; representative: opposite normals share "
-      "a "
-      "lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison; layers: for "
+      "a lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison; layers: for "
       "roughness that varies, Phong's lobe of any smoothness; voxels: the same in a cube" },
     { "paper", 0, NULL, CLI_SWITCH, offsetof(bake_settings, paper), 0, 0, NULL, NULL, 0,
       "the paper's settings: --method representative --normals 42 --size 400x200" },

@@ -3,6 +3,7 @@
 
 #include "maps.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const char *method_name(pe_method method)
@@ -93,6 +94,9 @@ void describe_maps(const pe_maps_info *info)
         printf("normals    %d (frequency %d), each with a picture of its hemisphere\n", info->normals, info->frequency);
     if (info->angles > 1)
         printf("angles     %d brush directions\n", info->angles);
+    if (info->pole_angles)
+        printf("poles      %d brush directions for normals within %.1f degrees of the brush\n", info->pole_angles,
+               acos(info->pole_cosine) * 180 / M_PI);
     if (info->suns)
         printf("suns       %d lights kept apart\n", info->suns);
     if (info->smoothness.size)
@@ -127,6 +131,10 @@ void describe_maps_json(json *out, const pe_maps_info *info)
     json_integer(out, "normals", info->normals);
     json_integer(out, "frequency", info->frequency);
     json_integer(out, "angles", info->angles);
+    if (info->pole_angles) {
+        json_integer(out, "pole_angles", info->pole_angles);
+        json_number(out, "pole_cosine", info->pole_cosine);
+    }
     json_integer(out, "suns", info->suns);
     json_integer(out, "images", info->images);
     json_integer(out, "width", info->width);

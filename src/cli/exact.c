@@ -37,16 +37,14 @@ static const cli_option options[] = {
     CLI_OPTION_K(exact_settings),
     { "phong", 0, NULL, CLI_SWITCH, offsetof(exact_settings, phong), 0, 0, NULL, NULL, 0,
       "Phong's lobe about the mirror direction, its smoothness lambda the seventh number of each line: what maps of "
-      "the "
-      "methods voxels and layers look up" },
+      "the methods voxels and layers look up" },
     { "size", 0, "S", CLI_INTEGER, offsetof(exact_settings, size), PE_SMOOTHNESS_SIZE_MIN, PE_SMOOTHNESS_SIZE_MAX, NULL,
       "128", 0, "for --phong: the voxels along the cube's edge that lambda refers to" },
     CLI_OPTION_WINDOW(exact_settings),
     CLI_OPTION_LEVELS(exact_settings),
     { "horizon", 0, "NAME", CLI_CHOICE, offsetof(exact_settings, horizon), 0, 0, horizons, "ignored", 0,
       "for --phong, the light from below the surface: ignored, it counts; dark, it is hidden; mean, it is hidden and "
-      "the "
-      "rest averaged" },
+      "the rest averaged" },
     CLI_OPTION_THREADS(exact_settings),
     CLI_OPTION_QUIET(exact_settings),
     { .name = NULL },
@@ -118,6 +116,31 @@ static int answer(const exact_settings *settings, const pe_surface *surface)
     return result;
 }
 
+/* What says how Phong's lobe is meant, and what says that another one is. */
+static int check_lobe(const exact_settings *settings)
+{
+    const struct {
+        const char *option;
+        int given, for_phong;
+    } rows[] = {
+        { "horizon", settings->horizon != PE_HORIZON_IGNORED, 1 },
+        { "alpha", settings->surface.alpha[0] > 0, 0 },
+        { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0 },
+        { "material", settings->surface.material != NULL, 0 },
+    };
+
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        if (!rows[k].given || rows[k].for_phong == settings->phong)
+            continue;
+        cli_error("exact",
+                  rows[k].for_phong ? "--%s is for --phong; give both, or neither"
+                                    : "--%s does not go with --phong, whose roughness is said at each line",
+                  rows[k].option);
+        return CLI_FAILURE;
+    }
+    return CLI_SUCCESS;
+}
+
 static int check_scale(const exact_settings *settings)
 {
     const pe_smoothness scale = { settings->size, settings->window, settings->levels };
@@ -138,7 +161,7 @@ static int exact_run(int argc, char **argv)
 
     if (result != CLI_PROCEED)
         return result;
-    if (check_scale(&settings) != CLI_SUCCESS ||
+    if (check_lobe(&settings) != CLI_SUCCESS || check_scale(&settings) != CLI_SUCCESS ||
         cli_make_surface("exact", &settings.surface, &surface, &table) != CLI_SUCCESS)
         return CLI_FAILURE;
     result = answer(&settings, &surface);
