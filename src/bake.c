@@ -348,9 +348,9 @@ static pe_status make_kernel(pe_baker *b, pe_error *error)
     return pe_kernel_make(b->lobe, &map, &cells, b->options.threads, &report, &b->kernel, error);
 }
 
-static pe_status prepare_multiscale(pe_baker *b, int width, int height, pe_error *error)
+static pe_status prepare_multiscale(pe_baker *b, double aim, int width, int height, pe_error *error)
 {
-    pe_status status = pe_multiscale_make(&b->options, width, height, &b->multiscale, error);
+    pe_status status = pe_multiscale_make(&b->options, aim, width, height, &b->multiscale, error);
 
     if (status == PE_OK)
         b->info = *pe_multiscale_get_info(b->multiscale);
@@ -362,7 +362,7 @@ static pe_status prepare(pe_baker *b, double aim, int width, int height, pe_erro
     pe_status status = check_error(b->options.error, error);
 
     if (status == PE_OK && pe_method_has_roughness(b->options.method))
-        return prepare_multiscale(b, width, height, error);
+        return prepare_multiscale(b, aim, width, height, error);
     if (status == PE_OK)
         status = choose_info(&b->options, aim, width, height, &b->info, error);
     if (status != PE_OK)
@@ -467,6 +467,7 @@ static pe_status bake_once(const pe_env *env, const pe_bake_options *options, do
  * ones have small maps; what misses it is baked again, so often at most, as long as that makes larger maps. */
 #define AIM_ABOVE 3.0
 #define AIM_BELOW 0.8
+#define AIM_MIN 0.02
 #define AIMS 5
 
 static int is_as_large(const pe_maps *a, const pe_maps *b)
@@ -508,7 +509,7 @@ static pe_status bake_until(const pe_env *env, attempt *a, pe_maps **maps, pe_er
     for (int k = 1; k < AIMS && status == PE_OK && !is_final && (*maps)->info.lookup_error > wanted; k++) {
         pe_maps *before = *maps;
 
-        aim *= AIM_BELOW * wanted / before->info.lookup_error;
+        aim = fmax(aim * AIM_BELOW * wanted / before->info.lookup_error, AIM_MIN * wanted);
         a->begin += a->share;
         status = bake_attempt(env, a, aim, maps, error);
         is_final = status == PE_OK && is_as_large(before, *maps);
@@ -534,7 +535,8 @@ static pe_status bake_for_error(const pe_env *env, const pe_bake_options *option
 
 pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
 {
-    int has_lookups = options->method == PE_METHOD_DEFAULT || options->method == PE_METHOD_HEMISPHERES;
+    int has_lookups = options->method == PE_METHOD_DEFAULT || options->method == PE_METHOD_HEMISPHERES ||
+                      options->method == PE_METHOD_LAYERS;
 
     if (options->error > 0 && has_lookups)
         return bake_for_error(env, options, maps, error);

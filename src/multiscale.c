@@ -29,10 +29,10 @@ struct pe_multiscale {
 #define LAYERS_PER_OCTAVE 1.0
 #define ERROR_OF_THESE 0.002
 
-static void choose_layers(const pe_bake_options *options, pe_maps_info *info)
+static void choose_layers(const pe_bake_options *options, double aim, pe_maps_info *info)
 {
     double exponent = pe_smoothness_exponent(&info->smoothness, 1);
-    double finer = pow(ERROR_OF_THESE / pe_wanted_error(options), 0.25);
+    double finer = pow(ERROR_OF_THESE / aim, 0.25);
     double width = 2 * M_PI * sqrt(exponent) * TEXELS_PER_DEVIATION * finer;
     double layers = log2(exponent) * LAYERS_PER_OCTAVE * finer + 1;
 
@@ -53,7 +53,7 @@ static pe_status check_options(const pe_bake_options *options, pe_error *error)
     return pe_smoothness_check(&options->smoothness, error);
 }
 
-static pe_status choose_info(pe_multiscale *m, int width, int height, pe_error *error)
+static pe_status choose_info(pe_multiscale *m, double aim, int width, int height, pe_error *error)
 {
     const pe_bake_options *options = &m->options;
     double alpha;
@@ -74,7 +74,7 @@ static pe_status choose_info(pe_multiscale *m, int width, int height, pe_error *
     alpha = pe_phong_alpha(pe_smoothness_exponent(&m->info.smoothness, 1));
     m->info.surface.ndf = (pe_ndf){ .kind = PE_NDF_PHONG, .alpha_x = alpha, .alpha_y = alpha };
     if (options->method == PE_METHOD_LAYERS) {
-        choose_layers(options, &m->info);
+        choose_layers(options, aim, &m->info);
     } else {
         m->info.width = m->info.height = m->info.smoothness.size;
         m->info.threshold = options->threshold > 0 ? options->threshold : THRESHOLD;
@@ -123,7 +123,7 @@ static pe_status get_weights(pe_multiscale *m, pe_error *error)
 
 /* ---- made, released ---- */
 
-pe_status pe_multiscale_make(const pe_bake_options *options, int width, int height, pe_multiscale **out,
+pe_status pe_multiscale_make(const pe_bake_options *options, double aim, int width, int height, pe_multiscale **out,
                              pe_error *error)
 {
     pe_multiscale *m = calloc(1, sizeof *m);
@@ -134,7 +134,7 @@ pe_status pe_multiscale_make(const pe_bake_options *options, int width, int heig
     m->options = *options;
     status = check_options(options, error);
     if (status == PE_OK)
-        status = choose_info(m, width, height, error);
+        status = choose_info(m, aim, width, height, error);
     if (status == PE_OK && options->method == PE_METHOD_VOXELS && m->info.accuracy == PE_ACCURACY_FAST)
         status = get_weights(m, error);
     if (status == PE_OK)

@@ -7,8 +7,9 @@
 
 typedef struct pe_multiscale pe_multiscale;
 
-/* Checks the options and decides what they leave open.  Voxels: makes the table of weights, or reads it. */
-pe_status pe_multiscale_make(const pe_bake_options *options, int width, int height, pe_multiscale **out,
+/* Checks the options and decides what they leave open: sizes of layers for the error `aim`.  Voxels: makes the table of
+ * weights, or reads it. */
+pe_status pe_multiscale_make(const pe_bake_options *options, double aim, int width, int height, pe_multiscale **out,
                              pe_error *error);
 void pe_multiscale_free(pe_multiscale *m); /* NULL is allowed */
 

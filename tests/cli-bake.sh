@@ -294,7 +294,7 @@ done
 like "$("$PREFENV" bake env.exr -o no.exr --method voxels --error 0.01 2>&1)" \
     '--error does not go with --method voxels' "voxels: --error is refused"
 like "$("$PREFENV" bake env.exr -o fine.exr --method layers --error 0.0005 2>&1 | grep warning)" \
-    'the error of lookups is [0-9.e-]+ %, not the 0.05 % asked for; a smaller --error|^$' "layers: --error"
+    'the error of lookups is [0-9.e-]+ %, not the 0.05 % asked for; finer layers were no better|^$' "layers: --error"
 like "$("$PREFENV" bake env.exr -o no.exr --threshold 0.1 2>&1)" '--threshold is for --method voxels' \
     "--threshold alone"
 like "$("$PREFENV" bake env.exr -o no.exr --method layers --size 64x32 2>&1)" 'of layers and voxels it is one number' \

@@ -67,7 +67,7 @@ static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
     const pe_maps_info *info = pe_maps_get_info(maps);
     int of_lookups = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_LAYERS; /* else not measured */
     const char *way_out = info->method == PE_METHOD_HEMISPHERES ? "give more --normals, and a larger --size"
-                          : of_lookups                          ? "a smaller --error makes finer layers"
+                          : of_lookups                          ? "finer layers were no better"
                                                                 : "--exact has none";
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
 
