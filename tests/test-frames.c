@@ -255,6 +255,8 @@ static void test_exact(void)
     ok(pe_baker_bake_frames(baker, envs, 0, NULL, maps, &error) == PE_ERROR_ARGUMENT &&
            strstr(error.message, "0 frames at once are out of range; give 1 to 5"),
        "none is refused: %s", error.message);
+    pe_maps_free(maps[0]);
+    pe_maps_free(maps[1]);
     pe_maps_free(alone);
     pe_baker_free(baker);
     pe_env_free(env);
