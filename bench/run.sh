@@ -95,14 +95,14 @@ done
 # ---- the command ----
 
 echo 'the lookup ...' >&2
-"$PREFENV" bake "$hdri" -o maps.exr --quiet || die 'the bake failed; see above'
+"$PREFENV" bake "$hdri" -o hemispheres.exr --quiet || die 'the bake failed; see above'
 awk -v count=$lines 'BEGIN {
     srand(1)
     for (i = 0; i < count; i++)
         print rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5, rand() - 0.5
 }' >lines.txt
 start=$(now)
-"$PREFENV" eval maps.exr <lines.txt >eval.txt || die 'prefenv eval failed; see above'
+"$PREFENV" eval hemispheres.exr <lines.txt >eval.txt || die 'prefenv eval failed; see above'
 eval_rate=$(ratio $lines "$(seconds_since "$start" 4)")
 start=$(now)
 head -n $exact_lines lines.txt | "$PREFENV" exact "$hdri" --alpha 0.1 >exact.txt 2>exact.log ||
@@ -162,7 +162,7 @@ else
 fi
 
 echo 'filtered importance sampling ...' >&2
-"$RIVALS" views "$hdri" maps.exr >views.json || die 'rivals failed; see above'
+"$RIVALS" views "$hdri" hemispheres.exr >views.json || die 'rivals failed; see above'
 for samples in 16 32 96; do
     rival="filtered importance sampling, $samples lookups"
     ours=$(value views.json maps_per_second)
@@ -203,10 +203,8 @@ bench_bunny()
     none=$(traced 5 none "$srcdir/bench/none.pov")
     linear=$(traced 5 linear "$scenes/fig6f.pov")
     baseline=$(traced 5 baseline "$scenes/fig6c.pov")
-    mv maps.exr default.exr
-    mv paper.exr maps.exr # Eq. 7 asks every map, so it is measured with the paper's 42
+    # Eq. 7 asks every map, so it is measured with the paper's 42.
     weighted=$(traced 2 weighted "$scenes/fig6e.pov")
-    mv default.exr maps.exr
     mirror=$(traced 5 mirror "$srcdir/bench/mirror.pov")
     reference=$(traced 2 reference "$scenes/fig6b.pov" Declare=Samples=64)
     this="$bunny, prefiltered, linear"
@@ -241,7 +239,7 @@ if [ "$POVRAY_PREFENV" != none ]; then
     make_mesh .
     ln -s "$hdri" environment.exr
     "$PREFENV" bake "$hdri" -o baseline.exr --method baseline --quiet
-    "$PREFENV" bake "$hdri" -o paper.exr --paper --quiet
+    "$PREFENV" bake "$hdri" -o maps.exr --paper --quiet
     scenes=$srcdir/scenes
     side=1024 bench_bunny
     side=256 bench_trick
