@@ -540,7 +540,6 @@ pe_status pe_head_on_filter(const pe_head_on *h, const double (*world)[3], size_
 typedef struct job {
     const pe_head_on *head_on;
     pe_maps *maps;
-    unsigned char *row_done; /* memory sufficed for this row of tiles */
 } job;
 
 static pe_status fill_tile(const job *j, int left, int top, int right, int bottom)
@@ -573,7 +572,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-static void fill_row(size_t row, void *data)
+static int fill_row(size_t row, void *data)
 {
     const job *j = data;
     const pe_maps_info *info = &j->maps->info;
@@ -581,24 +580,16 @@ static void fill_row(size_t row, void *data)
 
     for (int left = 0; left < info->width; left += TILE)
         if (fill_tile(j, left, top, least(left + TILE, info->width), least(top + TILE, info->height)) != PE_OK)
-            return;
-    j->row_done[row] = 1;
+            return 0;
+    return 1;
 }
 
 pe_status pe_baseline_fill(const pe_head_on *head_on, pe_maps *maps, int threads, const pe_report *report,
                            pe_error *error)
 {
     size_t rows = ((size_t)maps->info.height + TILE - 1) / TILE;
-    job j = { head_on, maps, calloc(rows, 1) };
+    job j = { head_on, maps };
     pe_report by_rows = { report->function, report->data, 0, (double)rows };
-    pe_status status;
 
-    if (!j.row_done)
-        return pe_fail_memory(error, "a table of rows");
-    status = pe_parallel_for(rows, threads, fill_row, &j, &by_rows);
-    for (size_t k = 0; status == PE_OK && k < rows; k++)
-        if (!j.row_done[k])
-            status = pe_fail_memory(error, "what a tile of a baseline map sees");
-    free(j.row_done);
-    return status;
+    return pe_parallel_try(rows, threads, fill_row, &j, &by_rows, "what a tile of a baseline map sees", error);
 }

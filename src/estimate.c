@@ -210,9 +210,9 @@ static void try_baseline(trial *t)
     }
 }
 
-typedef void pe_try(trial *t, pe_lights *lights);
+typedef void trial_task(trial *t, pe_lights *lights);
 
-static void with_lights(trial *t, pe_try *try_it)
+static void with_lights(trial *t, trial_task *try_it)
 {
     pe_lights lights;
 

@@ -20,7 +20,6 @@ typedef struct job {
     double lobe_reach;
     texels texels;
     pe_maps *maps;
-    unsigned char *done; /* memory sufficed for this image */
 } job;
 
 static void free_texels(texels *t)
@@ -80,7 +79,7 @@ static void filter_texels(const job *j, const pe_frame *frame, const pe_lights *
     }
 }
 
-static void filter_image(size_t k, void *data)
+static int filter_image(size_t k, void *data)
 {
     job *j = data;
     float *image = pe_maps_image_to_fill(j->maps, (int)k);
@@ -88,13 +87,13 @@ static void filter_image(size_t k, void *data)
     pe_frame frame;
 
     if (pe_lights_allocate(j->cloud, &lights, NULL) != PE_OK)
-        return;
+        return 0;
     pe_maps_frame(j->maps, (int)k, &frame);
     pe_lights_fill(j->cloud, j->lobe, &frame, j->lobe_reach, &lights);
     filter_texels(j, &frame, &lights, image);
     pe_disc_continue(&j->maps->disc, image, 3);
     pe_lights_free(&lights);
-    j->done[k] = 1;
+    return 1;
 }
 
 pe_status pe_fill_hemispheres(const pe_cloud *cloud, const pe_lobe *lobe, double lobe_reach, int threads,
@@ -105,15 +104,8 @@ pe_status pe_fill_hemispheres(const pe_cloud *cloud, const pe_lobe *lobe, double
 
     if (status != PE_OK)
         return status;
-    j.done = calloc((size_t)maps->info.images, sizeof *j.done);
-    if (j.done)
-        status = pe_parallel_for((size_t)maps->info.images, threads, filter_image, &j, report);
-    else
-        status = pe_fail_memory(error, "a table of images");
-    for (int k = 0; status == PE_OK && k < maps->info.images; k++)
-        if (!j.done[k])
-            status = pe_fail_memory(error, "a hemisphere of lights");
-    free(j.done);
+    status =
+        pe_parallel_try((size_t)maps->info.images, threads, filter_image, &j, report, "a hemisphere of lights", error);
     free_texels(&j.texels);
     return status;
 }
@@ -125,7 +117,6 @@ typedef struct kernel_job {
     const pe_lobe *lobe;
     const pe_kernel *kernel;
     pe_maps *maps;
-    unsigned char *done; /* memory sufficed for this group */
 } kernel_job;
 
 /* A group of images with consecutive numbers. */
@@ -167,35 +158,27 @@ static void filter_group(group *g, pe_lights *lights, float *cells)
         pe_disc_continue(&j->maps->disc, pe_maps_image_to_fill(j->maps, g->first + k), 3);
 }
 
-static void run_group(size_t index, void *data)
+static int run_group(size_t index, void *data)
 {
     kernel_job *j = data;
     group g = { .job = j, .first = (int)index * PE_KERNEL_GROUP };
     float *cells = pe_kernel_allocate_cells(j->kernel);
     pe_lights lights = { 0 };
+    int enough = cells && pe_lights_allocate(j->cloud, &lights, NULL) == PE_OK;
 
     g.count = j->maps->info.images - g.first < PE_KERNEL_GROUP ? j->maps->info.images - g.first : PE_KERNEL_GROUP;
-    if (cells && pe_lights_allocate(j->cloud, &lights, NULL) == PE_OK) {
+    if (enough)
         filter_group(&g, &lights, cells);
-        j->done[index] = 1;
-    }
     pe_lights_free(&lights);
     free(cells);
+    return enough;
 }
 
 pe_status pe_fill_hemispheres_by_kernel(const pe_cloud *cloud, const pe_lobe *lobe, const pe_kernel *kernel,
                                         int threads, const pe_report *report, pe_maps *maps, pe_error *error)
 {
     size_t groups = ((size_t)maps->info.images + PE_KERNEL_GROUP - 1) / PE_KERNEL_GROUP;
-    kernel_job j = { cloud, lobe, kernel, maps, calloc(groups, sizeof *j.done) };
-    pe_status status;
+    kernel_job j = { cloud, lobe, kernel, maps };
 
-    if (!j.done)
-        return pe_fail_memory(error, "a table of groups");
-    status = pe_parallel_for(groups, threads, run_group, &j, report);
-    for (size_t k = 0; status == PE_OK && k < groups; k++)
-        if (!j.done[k])
-            status = pe_fail_memory(error, "a grid of cells");
-    free(j.done);
-    return status;
+    return pe_parallel_try(groups, threads, run_group, &j, report, "a grid of cells", error);
 }

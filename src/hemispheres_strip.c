@@ -75,8 +75,7 @@ typedef struct job {
     const pe_strip *strip;
     const pe_lobe *lobe;
     const pe_kernel *kernel;
-    pe_maps *const *maps;  /* of each frame */
-    unsigned char *failed; /* of each pair */
+    pe_maps *const *maps; /* of each frame */
 } job;
 
 /* Two consecutive images; the last twice, where their count is odd. */
@@ -100,16 +99,15 @@ static void store(int place, const float o[3], const float (*sums)[PE_STRIP_LANE
     }
 }
 
-static void filter_pair(size_t index, void *data)
+static int filter_pair(size_t index, void *data)
 {
     const job *j = data;
     int last = j->maps[0]->info.images - 1, first = 2 * (int)index;
     pair p = { .job = j, .images = { first, first < last ? first + 1 : last } };
     pe_strip_cells cells;
 
-    j->failed[index] = pe_strip_cells_allocate(j->kernel, &cells, NULL) != PE_OK;
-    if (j->failed[index])
-        return;
+    if (pe_strip_cells_allocate(j->kernel, &cells, NULL) != PE_OK)
+        return 0;
     for (int side = 0; side < 2; side++)
         pe_maps_frame(j->maps[0], p.images[side], &p.frames[side]);
     pe_strip_filter(j->strip, j->kernel, p.frames, &cells, store, &p);
@@ -117,22 +115,15 @@ static void filter_pair(size_t index, void *data)
     for (int k = 0; k < j->strip->count; k++)
         for (int image = first; image <= p.images[1]; image++)
             pe_disc_continue(&j->maps[k]->disc, pe_maps_image_to_fill(j->maps[k], image), 3);
+    return 1;
 }
 
 pe_status pe_fill_hemispheres_of_strip(const pe_strip *strip, const pe_lobe *lobe, const pe_kernel *kernel, int threads,
                                        pe_report *report, pe_maps *const *maps, pe_error *error)
 {
     size_t pairs = ((size_t)maps[0]->info.images + 1) / 2;
-    job j = { strip, lobe, kernel, maps, calloc(pairs, sizeof *j.failed) };
-    pe_status status;
+    job j = { strip, lobe, kernel, maps };
 
-    if (!j.failed)
-        return pe_fail_memory(error, "a table of pairs");
     report->total = (double)pairs;
-    status = pe_parallel_for(pairs, threads, filter_pair, &j, report);
-    for (size_t k = 0; status == PE_OK && k < pairs; k++)
-        if (j.failed[k])
-            status = pe_fail_memory(error, "grids of cells");
-    free(j.failed);
-    return status;
+    return pe_parallel_try(pairs, threads, filter_pair, &j, report, "grids of cells", error);
 }

@@ -151,7 +151,6 @@ typedef struct job {
     period period;
     double exponent, least_cosine;
     float *image;
-    unsigned char *done; /* memory sufficed for this row */
 } job;
 
 /* What a row of a layer adds up: of each texel three vectors, and of each that is not like one before it the weight. */
@@ -256,43 +255,30 @@ static void store_row(const job *j, int y, const row_room *room)
     }
 }
 
-static void fill_row(size_t y, void *data)
+static int fill_row(size_t y, void *data)
 {
     job *j = data;
     const pe_env *env = j->strip.env;
     double polar = M_PI * ((double)y + 0.5) / j->height;
+    int enough;
     row_room room = { malloc((size_t)env->height * sizeof *room.spans),
                       malloc(((size_t)env->width + LANES) * sizeof *room.weights),
                       calloc((size_t)j->width * 3 * LANES, sizeof *room.sums),
                       malloc((size_t)j->period.texels * sizeof *room.totals) };
 
-    if (room.spans && room.weights && room.sums && room.totals) {
+    enough = room.spans && room.weights && room.sums && room.totals;
+    if (enough) {
         int count = make_spans(j, polar, room.spans);
 
         for (int x = 0; x < j->period.texels; x++)
             add_spans(j, polar, x, count, &room);
         store_row(j, (int)y, &room);
-        j->done[y] = 1;
     }
     free(room.spans);
     free(room.weights);
     free(room.sums);
     free(room.totals);
-}
-
-static pe_status fill_layer(job *j, int threads, const pe_report *report, pe_error *error)
-{
-    pe_status status;
-
-    j->done = calloc((size_t)j->height, 1);
-    if (!j->done)
-        return pe_fail_memory(error, "a layer");
-    status = pe_parallel_for((size_t)j->height, threads, fill_row, j, report);
-    for (int y = 0; y < j->height && status == PE_OK; y++)
-        if (!j->done[y])
-            status = pe_fail_memory(error, "a layer");
-    free(j->done);
-    return status;
+    return enough;
 }
 
 pe_status pe_fill_layers(const pe_env *env, int threads, const pe_report *report, pe_maps *maps, pe_error *error)
@@ -315,7 +301,7 @@ pe_status pe_fill_layers(const pe_env *env, int threads, const pe_report *report
         j.period.count = gcd(j.width, j.strip.env->width);
         j.period.texels = j.width / j.period.count;
         j.period.columns = j.strip.env->width / j.period.count;
-        status = fill_layer(&j, threads, &part, error);
+        status = pe_parallel_try((size_t)j.height, threads, fill_row, &j, &part, "a layer", error);
         part.done += j.height;
         free_strip(&j.strip);
     }

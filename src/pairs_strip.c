@@ -18,7 +18,6 @@ typedef struct job {
     const pe_suns *suns;
     pe_denominator *denominator; /* NULL where no frame has suns */
     pe_maps *const *maps;
-    unsigned char *failed; /* of each image */
 } job;
 
 /* An image's two hemispheres: lanes of every texel. */
@@ -278,17 +277,19 @@ static float *allocate_side(const pe_disc *disc)
     return aligned_alloc(LANES * sizeof(float), (size_t)disc->width * (size_t)disc->height * LANES * sizeof(float));
 }
 
-static void fill_image(size_t index, void *data)
+static int fill_image(size_t index, void *data)
 {
     const job *j = data;
+    int enough;
     image i = { .job = j, .sides = { allocate_side(&j->disc), allocate_side(&j->disc) } };
 
     for (int side = 0; side < 2; side++)
         pe_frame_make(pe_geodesic_vertex(j->maps[0]->geodesic, 2 * (int)index + side), j->maps[0]->info.direction,
                       &i.frames[side]);
-    j->failed[index] = !i.sides[0] || !i.sides[1] || !filter_sides(&i) || !look_up_image(&i, (int)index);
+    enough = i.sides[0] && i.sides[1] && filter_sides(&i) && look_up_image(&i, (int)index);
     free(i.sides[0]);
     free(i.sides[1]);
+    return enough;
 }
 
 static int any_suns(const pe_strip *strip, const pe_suns *suns)
@@ -300,33 +301,20 @@ static int any_suns(const pe_strip *strip, const pe_suns *suns)
     return any;
 }
 
-static pe_status fill_images(job *j, int threads, pe_report *report, pe_error *error)
-{
-    size_t images = (size_t)j->maps[0]->info.images;
-    pe_status status;
-
-    report->total = (double)images;
-    status = pe_parallel_for(images, threads, fill_image, j, report);
-    for (size_t k = 0; status == PE_OK && k < images; k++)
-        if (j->failed[k])
-            status = pe_fail_memory(error, "the hemispheres of an image");
-    return status;
-}
-
 pe_status pe_fill_pairs_of_strip(const pe_strip *strip, const pe_kernel *kernel, const pe_lobe *lobe,
                                  const pe_suns *suns, int threads, pe_report *report, pe_maps *const *maps,
                                  pe_error *error)
 {
-    job j = { strip, kernel, *pe_kernel_map(kernel), lobe, suns, NULL, maps, NULL };
+    size_t images = (size_t)maps[0]->info.images;
+    job j = { strip, kernel, *pe_kernel_map(kernel), lobe, suns, NULL, maps };
     pe_status status = PE_OK;
 
     if (lobe->surface.weight == PE_WEIGHT_NDF && any_suns(strip, suns))
         status = pe_denominator_make(&lobe->surface.ndf, &j.denominator, error);
     if (status != PE_OK)
         return status;
-    j.failed = calloc((size_t)maps[0]->info.images, sizeof *j.failed);
-    status = j.failed ? fill_images(&j, threads, report, error) : pe_fail_memory(error, "a table of images");
+    report->total = (double)images;
+    status = pe_parallel_try(images, threads, fill_image, &j, report, "the hemispheres of an image", error);
     pe_denominator_free(j.denominator);
-    free(j.failed);
     return status;
 }

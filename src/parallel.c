@@ -4,6 +4,8 @@
 #endif
 #include "parallel.h"
 
+#include "status.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
@@ -80,4 +82,29 @@ pe_status pe_parallel_for(size_t count, int threads, pe_task *task, void *data, 
         report->function((report->done + (double)count) / report->total, report->data))
         atomic_store(&l.cancelled, 1);
     return atomic_load(&l.cancelled) ? PE_ERROR_CANCELLED : PE_OK;
+}
+
+/* ---- turns that may lack memory ---- */
+
+typedef struct tries {
+    pe_try *turn;
+    void *data;
+    atomic_int any_failed;
+} tries;
+
+static void run_try(size_t index, void *data)
+{
+    tries *t = data;
+
+    if (!t->turn(index, t->data))
+        atomic_store(&t->any_failed, 1);
+}
+
+pe_status pe_parallel_try(size_t count, int threads, pe_try *turn, void *data, const pe_report *report,
+                          const char *what, pe_error *error)
+{
+    tries t = { .turn = turn, .data = data };
+    pe_status status = pe_parallel_for(count, threads, run_try, &t, report);
+
+    return status == PE_OK && atomic_load(&t.any_failed) ? pe_fail_memory(error, what) : status;
 }

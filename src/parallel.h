@@ -22,4 +22,11 @@ int pe_processors(void);
  * left out.  If threads cannot be made, fewer do the work. */
 pe_status pe_parallel_for(size_t count, int threads, pe_task *task, void *data, const pe_report *report);
 
+/* A turn that takes memory: 0 if there was not enough. */
+typedef int pe_try(size_t index, void *data);
+
+/* The same of such turns.  If any lacked memory: PE_ERROR_MEMORY, and error says for what, as pe_fail_memory does. */
+pe_status pe_parallel_try(size_t count, int threads, pe_try *turn, void *data, const pe_report *report,
+                          const char *what, pe_error *error);
+
 #endif
