@@ -476,42 +476,28 @@ static int is_as_large(const pe_maps *a, const pe_maps *b)
 }
 
 /* A bake that may not be the last: each is told of as half of what is left. */
-typedef struct attempt {
-    const pe_bake_options *asked;
-    double begin, share;
-} attempt;
-
-static int report_attempt(double fraction, void *data)
+static pe_status bake_attempt(const pe_env *env, pe_stage *stage, double aim, pe_maps **maps, pe_error *error)
 {
-    const attempt *a = data;
+    pe_bake_options options = *stage->options;
+    pe_report report = pe_stage_begin(stage, (1 - stage->begin - stage->share) / 2);
 
-    return a->asked->progress(a->begin + a->share * fraction, a->asked->progress_data);
-}
-
-static pe_status bake_attempt(const pe_env *env, attempt *a, double aim, pe_maps **maps, pe_error *error)
-{
-    pe_bake_options options = *a->asked;
-
-    a->share = (1 - a->begin) / 2;
-    if (options.progress)
-        options.progress = report_attempt;
-    options.progress_data = a;
+    options.progress = report.function;
+    options.progress_data = report.data;
     *maps = NULL;
     return bake_once(env, &options, aim, maps, error);
 }
 
-static pe_status bake_until(const pe_env *env, attempt *a, pe_maps **maps, pe_error *error)
+static pe_status bake_until(const pe_env *env, pe_stage *stage, pe_maps **maps, pe_error *error)
 {
-    double wanted = a->asked->error, aim = AIM_ABOVE * wanted;
-    pe_status status = bake_attempt(env, a, aim, maps, error);
+    double wanted = stage->options->error, aim = AIM_ABOVE * wanted;
+    pe_status status = bake_attempt(env, stage, aim, maps, error);
     int is_final = 0;
 
     for (int k = 1; k < AIMS && status == PE_OK && !is_final && (*maps)->info.lookup_error > wanted; k++) {
         pe_maps *before = *maps;
 
         aim = fmax(aim * AIM_BELOW * wanted / before->info.lookup_error, AIM_MIN * wanted);
-        a->begin += a->share;
-        status = bake_attempt(env, a, aim, maps, error);
+        status = bake_attempt(env, stage, aim, maps, error);
         is_final = status == PE_OK && is_as_large(before, *maps);
         pe_maps_free(before);
     }
@@ -520,9 +506,9 @@ static pe_status bake_until(const pe_env *env, attempt *a, pe_maps **maps, pe_er
 
 static pe_status bake_for_error(const pe_env *env, const pe_bake_options *options, pe_maps **out, pe_error *error)
 {
-    attempt a = { options, 0, 0 };
+    pe_stage stage = { options, 0, 0 };
     pe_maps *maps;
-    pe_status status = bake_until(env, &a, &maps, error);
+    pe_status status = bake_until(env, &stage, &maps, error);
 
     if (status == PE_OK && options->progress && options->progress(1, options->progress_data)) {
         pe_maps_free(maps);
