@@ -2,7 +2,10 @@
  *
  * With dw = 4 (o.h) dh, W(o) is the mean of 4 (o.h) / cos(theta_h) over half vectors drawn with density D cos(theta_h),
  * those left out that send the light below the horizon.  Each is drawn with its opposite, (-x, -y, z), so that the
- * mean is exact to first order however few they are. */
+ * mean is exact to first order however few they are; but for tables, which need not hold both alike.
+ *
+ * Seen from above, W is 4 (o.n); toward the horizon it falls to W_h, within as narrow a rim as the lobe is narrow,
+ * which no table holds.  With 2 a = W_h, 2 ((o.n) + sqrt((o.n)^2 + a^2)) does likewise; W by that is tabulated. */
 #include "denominator.h"
 
 #include "disc.h"
@@ -16,7 +19,7 @@
 #include <stdlib.h>
 
 #define SIDE 48
-#define PAIRS 1024
+#define NORMALS 2048
 
 /* A sun whose half vector has a density below exp(-LIMIT) = 1e-14 of the greatest is not seen. */
 #define LIMIT 32
@@ -24,6 +27,7 @@
 struct pe_denominator {
     pe_disc disc;
     double farthest;
+    double along, across; /* a for viewers at the horizon, along t and along b */
     float coefficients[SIDE * SIDE];
 };
 
@@ -40,17 +44,50 @@ static double mean_weight(const direction *h, const double o[3])
 {
     double sum = 0;
 
-    for (int k = 0; k < PAIRS; k++) {
-        const double opposite[3] = { -h[k][0], -h[k][1], h[k][2] };
+    for (int k = 0; k < NORMALS; k++)
+        sum += weigh(h[k], o);
+    return sum / NORMALS;
+}
 
-        sum += weigh(h[k], o) + weigh(opposite, o);
+static void draw(const pe_ndf *ndf, direction *h)
+{
+    static const double middle[2] = { 0.5, 0.5 };
+    int drawn = ndf->kind == PE_NDF_TABLE ? NORMALS : NORMALS / 2;
+
+    for (int k = 0; k < drawn; k++) {
+        double point[2];
+
+        pe_lattice_point(k, middle, point);
+        pe_ndf_sample(ndf, point[0], point[1], h[k]);
     }
-    return sum / (2 * PAIRS);
+    for (int k = drawn; k < NORMALS; k++) {
+        h[k][0] = -h[k - drawn][0];
+        h[k][1] = -h[k - drawn][1];
+        h[k][2] = h[k - drawn][2];
+    }
+}
+
+double pe_denominator_of(const pe_ndf *ndf, const double o[3])
+{
+    direction h[NORMALS];
+
+    draw(ndf, h);
+    return mean_weight(h, o);
+}
+
+/* a^2 goes around as that of an ellipse, which it is for distributions that are stretched. */
+static double approximate(const pe_denominator *denominator, const double o[3])
+{
+    double x = denominator->along * o[0], y = denominator->across * o[1];
+
+    return 2 * (o[2] + sqrt(o[2] * o[2] + x * x + y * y));
 }
 
 /* Texels beyond the horizon carry on with the horizon's. */
 static void fill(const direction *h, pe_denominator *denominator)
 {
+    denominator->along = mean_weight(h, (const double[3]){ 1, 0, 0 }) / 2;
+    denominator->across = mean_weight(h, (const double[3]){ 0, 1, 0 }) / 2;
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             double o[3] = { 0, 0, 1 };
@@ -61,16 +98,15 @@ static void fill(const direction *h, pe_denominator *denominator)
                 o[2] = 0;
                 pe_normalize(o, o);
             }
-            denominator->coefficients[y * SIDE + x] = (float)mean_weight(h, o);
+            denominator->coefficients[y * SIDE + x] = (float)(mean_weight(h, o) / approximate(denominator, o));
         }
     pe_spline_coefficients(denominator->coefficients, SIDE, SIDE, 1);
 }
 
 pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error)
 {
-    static const double middle[2] = { 0.5, 0.5 };
     pe_denominator *denominator = malloc(sizeof *denominator);
-    direction *h = malloc(PAIRS * sizeof *h);
+    direction *h = malloc(NORMALS * sizeof *h);
     double reach;
 
     if (!denominator || !h) {
@@ -81,12 +117,7 @@ pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error 
     denominator->disc = (pe_disc){ SIDE, SIDE };
     reach = pe_ndf_reach(ndf, LIMIT);
     denominator->farthest = 1 + reach * reach;
-    for (int k = 0; k < PAIRS; k++) {
-        double point[2];
-
-        pe_lattice_point(k, middle, point);
-        pe_ndf_sample(ndf, point[0], point[1], h[k]);
-    }
+    draw(ndf, h);
     fill(h, denominator);
     free(h);
     *out = denominator;
@@ -109,7 +140,7 @@ double pe_denominator_at(const pe_denominator *denominator, const double o[3])
         for (int i = 0; i < 4; i++)
             sum += (double)(taps.down[j] * taps.across[i] *
                             denominator->coefficients[(taps.y + j - 1) * SIDE + taps.x + i - 1]);
-    return sum;
+    return sum * approximate(denominator, o);
 }
 
 double pe_denominator_farthest(const pe_denominator *denominator)

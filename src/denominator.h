@@ -15,6 +15,9 @@ void pe_denominator_free(pe_denominator *denominator); /* NULL is allowed */
 /* W(o), o unit and above the horizon of the tangent frame. */
 double pe_denominator_at(const pe_denominator *denominator, const double o[3]);
 
+/* The same without a table, in some tens of microseconds: for surfaces that are met once. */
+double pe_denominator_of(const pe_ndf *ndf, const double o[3]);
+
 /* 1 / cos^2(theta_h) of the farthest half vectors that count; may be INFINITY. */
 double pe_denominator_farthest(const pe_denominator *denominator);
 

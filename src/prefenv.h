@@ -388,6 +388,38 @@ typedef enum pe_horizon {
 void pe_phong(const pe_env *env, double exponent, pe_horizon horizon, const double n[3], const double r[3],
               double rgb[3]);
 
+/* ---- highlights: of light sources that are in no environment ---------------------------------------------------
+ *
+ * A light source that has no size has no radiance, but an irradiance E on whatever faces it.  What is reflected of it,
+ * for each unit of E, is the limit of the truths above in an environment that is black but for one small texel of
+ * radiance E / its solid angle.  With h halfway between viewer and light, both above the horizon,
+ *
+ *   PE_WEIGHT_NDF           D(h) / W(o), W(o) the integral of D over the lights above the horizon: [Motegi Eq. 4];
+ *   PE_WEIGHT_MICROFACET    D(h) G2 F / (4 o.n): light that falls in aslant, on more of the surface, is no weaker;
+ *   Phong's lobe            cos^Lambda theta (Lambda + 1) / 2 pi.
+ *
+ * A light source of POV-Ray's that has the colour c shows as c on white matter that faces it: its E is pi c. */
+
+/* What the highlights of a surface share: W. */
+typedef struct pe_highlights pe_highlights;
+
+/* Checks the surface, whose table must outlive them; takes a few milliseconds. */
+pe_status pe_highlights_make(const pe_surface *surface, pe_highlights **highlights, pe_error *error);
+void pe_highlights_free(pe_highlights *highlights); /* NULL is allowed */
+
+/* `light` is the direction to the light source, of any length but zero; the rest is as for pe_exact.  W is that of a
+ * table, within 0.01 where o.n > 0.2 and 0.1 below.
+ * pe_highlight_once: for a surface that is met at one point, such as one of varying roughness; without a table, in some
+ * tens of microseconds. */
+void pe_highlight(const pe_highlights *highlights, const double direction[3], const double n[3], const double o[3],
+                  const double light[3], double rgb[3]);
+void pe_highlight_once(const pe_surface *surface, const double direction[3], const double n[3], const double o[3],
+                       const double light[3], double rgb[3]);
+
+/* Of Phong's lobe; arguments as for pe_phong. */
+double pe_phong_highlight(double exponent, pe_horizon horizon, const double n[3], const double r[3],
+                          const double light[3]);
+
 /* ---- directions: for renderers that trace the reflection ------------------------------------------------------- */
 
 /* A surface point and its viewer, made ready.  For pe_directions_begin to fill; the surface's table must outlive it. */

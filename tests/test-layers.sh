@@ -8,8 +8,8 @@
 rooms=(
     status vector lanes sequence parallel file image/exr env/shrink pyramid ndf heights slopes geodesic dome poles
     disc/spline/atlas globe/layering surface viewer directions lobe filter cluster/tiles strip kernel denominator suns
-    truth/phong/horizon weights maps look baseline/hemispheres/pairs/layers/voxels sample estimate choose multiscale
-    bake cli
+    truth/phong/horizon highlight weights maps look baseline/hemispheres/pairs/layers/voxels sample estimate choose
+    multiscale bake cli
 )
 
 declare -A place
