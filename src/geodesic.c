@@ -3,7 +3,9 @@
  * Each face of the icosahedron carries the flat grid P(i, j) = (i A + j B + (f - i - j) C) / f; a vertex is P made
  * unit.  Point location follows from that: the face of a direction is the one whose centre is nearest (the faces are
  * the Voronoi cells of their centres); its gnomonic image on the flat face, scaled by f, lies in the unit cell
- * (floor i, floor j), in the triangle on this or that side of the cell's diagonal. */
+ * (floor i, floor j), in the triangle on this or that side of the cell's diagonal.
+ *
+ * Directions come in any order, and a branch that goes either way costs more than all these sums: there is none. */
 #include "geodesic.h"
 
 #include "status.h"
@@ -26,19 +28,19 @@ struct pe_geodesic {
     double *lengths; /* of the flat grid point under each vertex, for barycentric weights of unit vertices */
     double *shares;
     face faces[FACES];
-    int opposite[FACES / 2][2]; /* faces whose centres are opposite, and, x by x, the first one's */
-    double centres[3][FACES / 2];
+    int nearest[8][8]; /* faces by octant and by which family is nearest: see nearest_face */
     int *grids;
 };
+
+#define GOLDEN 1.6180339887498948482 /* the golden ratio */
 
 /* Cyclic permutations of (0, +-1, +-golden ratio), and the triples at edge length 2. */
 static void make_icosahedron(double corners[12][3], int faces[FACES][3])
 {
-    const double golden = (1 + sqrt(5)) / 2;
     int found = 0;
 
     for (int k = 0; k < 12; k++) {
-        double p[3] = { 0, k & 1 ? -1 : 1, k & 2 ? -golden : golden };
+        double p[3] = { 0, k & 1 ? -1 : 1, k & 2 ? -GOLDEN : GOLDEN };
 
         for (int c = 0; c < 3; c++)
             corners[k][(c + k / 4) % 3] = p[c];
@@ -136,18 +138,37 @@ static void make_vertices(pe_geodesic *g, slices *s, face *f, const double a[3],
         }
 }
 
-static void pair_faces(pe_geodesic *g)
-{
-    int pairs = 0;
+/* The faces' centres are the corners of a dodecahedron, in four families: those of a cube, (+-1, +-1, +-1), and the
+ * cyclic permutations of (+-1 / golden ratio, 0, +-golden ratio).  Here x by x, y by y and z by z, without signs. */
+#define FAMILIES 4
+static const double centres[3][FAMILIES] = { { 1, GOLDEN - 1, GOLDEN, 0 },
+                                             { 1, 0, GOLDEN - 1, GOLDEN },
+                                             { 1, GOLDEN, 0, GOLDEN - 1 } };
 
-    for (int a = 0; a < FACES; a++)
-        for (int b = a + 1; b < FACES; b++)
-            if (pe_dot(g->faces[a].centre, g->faces[b].centre) < -0.99) {
-                for (int c = 0; c < 3; c++)
-                    g->centres[c][pairs] = g->faces[a].centre[c];
-                g->opposite[pairs][0] = a;
-                g->opposite[pairs++][1] = b;
-            }
+/* Of a family the centre nearest to a direction is that with its signs. */
+static inline int octant_of(const double n[3])
+{
+    return (n[0] < 0) | (n[1] < 0) << 1 | (n[2] < 0) << 2;
+}
+
+static int face_at(const pe_geodesic *g, int octant, int family)
+{
+    for (int k = 0; k < FACES; k++) {
+        double cosine = 0;
+
+        for (int c = 0; c < 3; c++)
+            cosine += (octant >> c & 1 ? -1 : 1) * centres[c][family] * g->faces[k].centre[c] / sqrt(3);
+        if (cosine > 0.99)
+            return k;
+    }
+    return 0;
+}
+
+static void find_nearest_faces(pe_geodesic *g)
+{
+    for (int octant = 0; octant < 8; octant++)
+        for (int k = 0; k < 8; k++)
+            g->nearest[octant][k] = face_at(g, octant, k & 4 ? 2 + (k >> 1 & 1) : k & 1);
 }
 
 /* A flat grid's cells are all of one size; seen from the centre, one at the distance d is d^-3 as large, and has lost a
@@ -180,7 +201,7 @@ static void make_faces(pe_geodesic *g, slices *s)
         make_face(&g->faces[k], a, b, c);
         make_vertices(g, s, &g->faces[k], a, b, c);
     }
-    pair_faces(g);
+    find_nearest_faces(g);
     set_shares(g);
 }
 
@@ -240,55 +261,52 @@ double pe_geodesic_share(const pe_geodesic *g, int index)
     return g->shares[index];
 }
 
-static const face *nearest_face(const pe_geodesic *g, const double n[3])
+static inline double greater(double a, double b)
 {
-    double cosines[FACES / 2];
-    int first = 0, second = 1;
-
-    for (int k = 0; k < FACES / 2; k++)
-        cosines[k] = g->centres[0][k] * n[0] + g->centres[1][k] * n[1] + g->centres[2][k] * n[2];
-    for (int k = 2; k < FACES / 2; k += 2) { /* two chains of comparisons at once */
-        first = fabs(cosines[k]) > fabs(cosines[first]) ? k : first;
-        second = fabs(cosines[k + 1]) > fabs(cosines[second]) ? k + 1 : second;
-    }
-    first = fabs(cosines[second]) > fabs(cosines[first]) ? second : first;
-    return &g->faces[g->opposite[first][cosines[first] < 0]];
+    return a > b ? a : b;
 }
 
-/* Corner `k` of the triangle: grid point and flat weight to vertex and weight on the unit vertices. */
-static void set_corner(const pe_geodesic *g, const face *f, int i, int j, double flat, int *vertex, double *weight)
+static inline const face *nearest_face(const pe_geodesic *g, const double n[3])
 {
-    *vertex = f->vertices[i * (g->frequency + 1) + j];
-    *weight = (flat > 0 ? flat : 0) * g->lengths[*vertex];
+    double cosines[FAMILIES];
+    int first, second, either;
+
+    for (int k = 0; k < FAMILIES; k++)
+        cosines[k] = fabs(n[0]) * centres[0][k] + fabs(n[1]) * centres[1][k] + fabs(n[2]) * centres[2][k];
+    first = cosines[1] > cosines[0];
+    second = cosines[3] > cosines[2];
+    either = greater(cosines[2], cosines[3]) > greater(cosines[0], cosines[1]);
+    return &g->faces[g->nearest[octant_of(n)][either << 2 | second << 1 | first]];
 }
 
+/* In a cell whose corners are (i, j), (i + 1, j), (i, j + 1) and (i + 1, j + 1), the point (x, y) has in the lower
+ * triangle the weights e = 1 - x - y, x and y; in the upper one, where e < 0, they are 0, x + e, y + e and -e. */
 void pe_geodesic_locate(const pe_geodesic *g, const double n[3], int vertices[3], double weights[3])
 {
     const face *f = nearest_face(g, n);
-    int size = g->frequency;
+    int size = g->frequency, i, j;
     double a = pe_dot(f->inverse, n), b = pe_dot(f->inverse + 3, n), c = pe_dot(f->inverse + 6, n);
-    double scale = size / (a + b + c);
-    double x = fmax(a * scale, 0), y = fmax(b * scale, 0);
-    int i, j;
-    double sum;
+    double scale = size / (a + b + c), x = greater(a * scale, 0), y = greater(b * scale, 0), e, below, sum;
+    const int *corner;
 
     /* Rounding may leave the face by a hair: stay on its grid. */
-    i = x >= size ? size - 1 : (int)x;
-    j = y >= size - i ? size - i - 1 : (int)y;
+    i = x < size ? (int)x : size - 1;
+    j = y < size - i ? (int)y : size - i - 1;
     x -= i;
     y -= j;
-    if (x + y <= 1 || i + j + 2 > size) {
-        set_corner(g, f, i + 1, j, x, &vertices[0], &weights[0]);
-        set_corner(g, f, i, j + 1, y, &vertices[1], &weights[1]);
-        set_corner(g, f, i, j, 1 - x - y, &vertices[2], &weights[2]);
-    } else {
-        set_corner(g, f, i, j + 1, 1 - x, &vertices[0], &weights[0]);
-        set_corner(g, f, i + 1, j, 1 - y, &vertices[1], &weights[1]);
-        set_corner(g, f, i + 1, j + 1, x + y - 1, &vertices[2], &weights[2]);
-    }
-    sum = weights[0] + weights[1] + weights[2];
-    for (int k = 0; k < 3; k++)
-        weights[k] /= sum;
+    e = 1 - x - y;
+    below = (e - fabs(e)) / 2;
+    corner = f->vertices + i * (size + 1) + j;
+    vertices[0] = corner[size + 1];
+    vertices[1] = corner[1];
+    vertices[2] = corner[((e < 0) & (i + j + 2 <= size)) * (size + 2)];
+    x = greater(x + below, 0) * g->lengths[vertices[0]];
+    y = greater(y + below, 0) * g->lengths[vertices[1]];
+    e = fabs(e) * g->lengths[vertices[2]];
+    sum = 1 / (x + y + e);
+    weights[0] = x * sum;
+    weights[1] = y * sum;
+    weights[2] = e * sum;
 }
 
 int pe_geodesic_frequency(int count)
