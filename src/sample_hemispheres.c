@@ -17,7 +17,15 @@ static inline void enter(const float frame[3][3], const float world[3], float lo
         local[row] = frame[row][0] * world[0] + frame[row][1] * world[1] + frame[row][2] * world[2];
 }
 
-/* What the maps looked up so far add up to. */
+/* As many lookups as wait for each other's texels: those of a triangle at four angles. */
+#define LOOKUPS 12
+
+typedef struct lookup {
+    pe_aim aim;
+    float weight;
+} lookup;
+
+/* What the maps looked up so far add up to, and the lookups that have been aimed and not yet added. */
 typedef struct mix {
     const pe_maps *maps;
     float r[3];
@@ -27,7 +35,29 @@ typedef struct mix {
     int has_brush;
     pe_quad rgb;
     float weight;
+    int count;
+    lookup lookups[LOOKUPS];
 } mix;
+
+static void add_lookups(mix *sum)
+{
+    for (int k = 0; k < sum->count; k++) {
+        sum->rgb += sum->lookups[k].weight * pe_look_at(sum->maps, &sum->lookups[k].aim);
+        sum->weight += sum->lookups[k].weight;
+    }
+    sum->count = 0;
+}
+
+static inline void aim(mix *sum, int image, const float local[3], float weight)
+{
+    lookup *next;
+
+    if (sum->count == LOOKUPS)
+        add_lookups(sum);
+    next = &sum->lookups[sum->count++];
+    pe_look_aim(sum->maps, image, local, &next->aim);
+    next->weight = weight;
+}
 
 /* A direction of the vertex's frame, in the frame turned by angle k. */
 static void turn(const pe_maps *maps, int k, const float local[3], float turned[3])
@@ -52,10 +82,9 @@ static void need_brush(mix *sum)
     sum->has_brush = 1;
 }
 
-static pe_quad look_at_angles(mix *sum, int vertex, int angles, const float local[3])
+static void aim_at_angles(mix *sum, int vertex, int angles, const float local[3], float weight)
 {
     float brush[3], turned[3], weights[4], at;
-    pe_quad rgb = { 0, 0, 0, 0 };
     int first;
 
     need_brush(sum);
@@ -67,33 +96,40 @@ static pe_quad look_at_angles(mix *sum, int vertex, int angles, const float loca
         int angle = (first + k - 1 + angles) % angles;
 
         turn(sum->maps, angle, local, turned);
-        rgb += weights[k] * pe_look(sum->maps, pe_maps_image_at(sum->maps, vertex, angle), turned);
+        aim(sum, pe_maps_image_at(sum->maps, vertex, angle), turned, weight * weights[k]);
     }
-    return rgb;
 }
 
-static void add_map(int vertex, double weight, void *data)
+static void aim_at_vertex(int vertex, double weight, void *data)
 {
     mix *sum = data;
     int angles = pe_maps_angles_at(sum->maps, vertex);
     float local[3];
 
     enter((const float(*)[3])sum->maps->frames[vertex], sum->r, local);
-    sum->rgb +=
-        (float)weight * (angles > 1 ? look_at_angles(sum, vertex, angles, local) : pe_look(sum->maps, vertex, local));
-    sum->weight += (float)weight;
+    if (angles > 1)
+        aim_at_angles(sum, vertex, angles, local, (float)weight);
+    else
+        aim(sum, vertex, local, (float)weight);
 }
 
 void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3])
 {
-    mix sum = { .maps = maps,
-                .r = { (float)view->r[0], (float)view->r[1], (float)view->r[2] },
-                .n = view->n,
-                .direction = view->direction ? view->direction : maps->info.direction };
+    mix sum; /* filled in member by member: it would take long to clear all of it */
 
-    pe_visit_normals(maps, sampling, view->n, add_map, &sum);
+    sum.maps = maps;
     for (int c = 0; c < 3; c++)
-        rgb[c] = fmax((double)(sum.rgb[c] / sum.weight), 0);
+        sum.r[c] = (float)view->r[c];
+    sum.direction = view->direction ? view->direction : maps->info.direction;
+    sum.n = view->n;
+    sum.has_brush = 0;
+    sum.rgb = (pe_quad){ 0, 0, 0, 0 };
+    sum.weight = 0;
+    sum.count = 0;
+    pe_visit_normals(maps, sampling, view->n, aim_at_vertex, &sum);
+    add_lookups(&sum);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = sum.rgb[c] > 0 ? (double)(sum.rgb[c] / sum.weight) : 0;
     if (maps->suns.count)
         pe_suns_add(&maps->suns, &maps->info.surface, maps->denominator, sum.direction, view->n, view->o, rgb);
 }
