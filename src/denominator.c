@@ -21,8 +21,8 @@
 #define SIDE 48
 #define NORMALS 2048
 
-/* A sun whose half vector has a density below exp(-LIMIT) = 1e-14 of the greatest is not seen. */
-#define LIMIT 32
+/* A sun whose half vector has a density below exp(-LIMIT) = 4e-11 of the greatest is not seen. */
+#define LIMIT 24
 
 struct pe_denominator {
     pe_disc disc;

@@ -8,8 +8,6 @@
 #include "status.h"
 #include "surface.h"
 
-#include <string.h>
-
 /* The texels of greatest power, in falling order; one more than can be suns. */
 typedef struct ranking {
     int count, texel[PE_SUNS_MAX + 1];
@@ -121,14 +119,13 @@ pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surfa
     return PE_OK;
 }
 
-/* D(h) of one sun, h not unit. */
+/* D(h) of one sun, h of any length, above the horizon. */
 static double density(const pe_ndf *ndf, const pe_frame *frame, const double h[3])
 {
-    double local[3];
+    double up = 1 / pe_dot(frame->n, h), p = up * pe_dot(frame->t, h), q = up * pe_dot(frame->b, h);
+    double square = 1 + p * p + q * q;
 
-    pe_frame_coordinates(frame, h, local);
-    pe_normalize(local, local);
-    return pe_ndf_evaluate(ndf, local);
+    return pe_ndf_slope_density(ndf, p, q) * square * square;
 }
 
 /* D G2 F / (4 cos theta_o) of one sun, all vectors in the tangent frame. */
@@ -164,60 +161,48 @@ static void add_scattered(const pe_suns *suns, const pe_surface *surface, const 
     }
 }
 
-typedef float quad __attribute__((vector_size(16)));
-typedef int quad_bits __attribute__((vector_size(16)));
-
 /* Whether the half vector with any sun is one that counts, and the sun up, or nearly: most lookups are nowhere near a
  * sun.  With unit vectors h.h = 2 + 2 o.w. */
 static int is_any_near(const pe_suns *suns, double farthest, const double n[3], const double o[3])
 {
     const float n0 = (float)n[0], n1 = (float)n[1], n2 = (float)n[2];
     const float o0 = (float)o[0], o1 = (float)o[1], o2 = (float)o[2];
-    const float o_n = (float)pe_dot(o, n), limit = (float)fmin(1.001 * farthest, 1e30);
-    quad_bits found = { 0, 0, 0, 0 };
+    const float o_n = (float)pe_dot(o, n), limit = farthest < 1e30 ? 1.001f * (float)farthest : 1e30f;
+    int count = (suns->count + 3) & ~3, found = 0;
 
-    for (int k = 0; k < suns->count; k += 4) {
-        quad x, y, z, w_n, h_h, h_n;
+    for (int k = 0; k < count; k++) {
+        float x = suns->axes[0][k], y = suns->axes[1][k], z = suns->axes[2][k];
+        float w_n = n0 * x + n1 * y + n2 * z, h_n = o_n + w_n, h_h = 2 + 2 * (o0 * x + o1 * y + o2 * z);
 
-        memcpy(&x, suns->axes[0] + k, sizeof x);
-        memcpy(&y, suns->axes[1] + k, sizeof y);
-        memcpy(&z, suns->axes[2] + k, sizeof z);
-        w_n = n0 * x + n1 * y + n2 * z;
-        h_h = 2 + 2 * (o0 * x + o1 * y + o2 * z);
-        h_n = o_n + w_n;
         found |= (w_n > -1e-5f) & (h_h < limit * h_n * h_n + 1e-5f);
     }
-    return found[0] | found[1] | found[2] | found[3];
+    return found;
 }
 
 static void add_weighted(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
                          const double direction[3], const double n[3], const double o[3], double rgb[3])
 {
-    pe_frame frame = { { 0 }, { 0 }, { 0 } };
-    double weight = 0;                                      /* of all light; 0: not yet needed, nor the frame */
     double farthest = pe_denominator_farthest(denominator); /* 1 / cos^2(theta_h) */
+    double local[3], weight, sum[3] = { 0, 0, 0 };
+    pe_frame frame;
 
     if (!is_any_near(suns, farthest, n, o))
         return;
+    pe_frame_make(n, direction, &frame);
     for (int k = 0; k < suns->count; k++) {
         const double *w = suns->direction[k];
-        double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, share;
+        double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, up = pe_dot(h, n), d;
 
-        double cosine = pe_dot(h, n);
-
-        if (!(pe_dot(w, n) > PE_HORIZON) || pe_dot(h, h) > farthest * cosine * cosine)
+        if (!(pe_dot(w, n) > PE_HORIZON) || pe_dot(h, h) > farthest * up * up)
             continue;
-        if (weight == 0) {
-            double local[3];
-
-            pe_frame_make(n, direction, &frame);
-            pe_frame_coordinates(&frame, o, local);
-            weight = pe_denominator_at(denominator, local);
-        }
-        share = density(&surface->ndf, &frame, h) / weight;
+        d = density(&surface->ndf, &frame, h);
         for (int c = 0; c < 3; c++)
-            rgb[c] += share * suns->power[k][c];
+            sum[c] += d * suns->power[k][c];
     }
+    pe_frame_coordinates(&frame, o, local);
+    weight = pe_denominator_at(denominator, local);
+    for (int c = 0; c < 3; c++)
+        rgb[c] += sum[c] / weight;
 }
 
 void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
