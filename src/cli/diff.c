@@ -1,7 +1,6 @@
 /* diff.c - `prefenv diff`: a picture against its reference. */
 #include "cli.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "json.h"
 #include "measure.h"
 #include "prefenv.h"
@@ -167,9 +166,7 @@ static int write_picture(const diff_settings *settings, const pictures *all)
     pe_status status = measure_picture(&all->image, &all->reference, all->keep, settings->amplify, &picture);
 
     if (status == PE_OK) {
-        interrupt_hold(settings->output);
         status = pe_image_write_png(settings->output, &picture, &error);
-        interrupt_release();
         pe_image_free(&picture);
     }
     if (status == PE_OK)

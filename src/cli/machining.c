@@ -1,7 +1,6 @@
 /* machining.c - `prefenv surface`: the height field of a machined surface, for 'prefenv ndf' to measure. */
 #include "cli.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "prefenv.h"
 
 #include <math.h>
@@ -106,9 +105,7 @@ static pe_status write_surface(const surface_settings *settings, pe_machining_op
         status = pe_heights_machine(machining, &heights, error);
     if (status != PE_OK)
         return status;
-    interrupt_hold(settings->output);
     status = pe_heights_write(&heights, settings->output, error);
-    interrupt_release();
     pe_heights_free(&heights);
     return status;
 }

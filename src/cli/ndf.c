@@ -1,7 +1,6 @@
 /* ndf.c - `prefenv ndf`: the normal distribution of a measured surface. */
 #include "cli.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "json.h"
 #include "prefenv.h"
 
@@ -128,9 +127,7 @@ static pe_status write_table(const ndf_settings *s, const pe_slope_density *d, p
 
     if (status != PE_OK)
         return status;
-    interrupt_hold(s->output);
     status = pe_ndf_table_write(table, s->output, error);
-    interrupt_release();
     pe_ndf_table_free(table);
     return status;
 }
