@@ -2,6 +2,7 @@
  *
  * A "pair" is a texel of a map and a texel of the environment, both in the hemisphere of the map's normal: of a map of
  * w x h texels and an environment of W x H there are (w h / 2) (W H / 2), whether they are all looked at or not. */
+#include "check.h"
 #include "naive.h"
 #include "prefenv.h"
 
@@ -20,14 +21,6 @@ static double now(int threads)
 
     clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(pe_status status, const pe_error *error)
-{
-    if (status != PE_OK) {
-        fprintf(stderr, "bench: %s\n", error->message);
-        exit(1);
-    }
 }
 
 /* The environment on a smaller grid: each texel the mean of 4 x 4 lookups. */

@@ -10,6 +10,7 @@
  * Of each file it prints the root mean square of that derivative, per square of the radius and relative to the mean
  * luminance, over what faces the viewer: by differences a pixel wide, and a quarter of one.  Where there are no kinks
  * the two are the same; what is flat between kinks has twice as much in the second. */
+#include "check.h"
 #include "prefenv.h"
 
 #include <math.h>
@@ -24,14 +25,6 @@
 #define MAPS_MAX 8
 
 static const pe_sampling weighted = { .interpolation = PE_INTERPOLATION_WEIGHTED };
-
-static void check(pe_status status, const pe_error *error)
-{
-    if (status != PE_OK) {
-        fprintf(stderr, "derivative: %s\n", error->message);
-        exit(1);
-    }
-}
 
 /* Lat-long maps are mixed as the paper mixes them. */
 static const pe_sampling *sampling_of(const pe_maps *maps)

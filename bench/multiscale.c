@@ -3,6 +3,7 @@
  * The environments are the paper's in kind: (a) hue along x and saturation along y, (b) a panorama, ENV, as a camera
  * of 8 bits would have seen it; both 512 x 256, values in steps of 1/255 taken for radiance.  Errors are in 256
  * levels, the mean of the three channels. */
+#include "check.h"
 #include "prefenv.h"
 
 #include <math.h>
@@ -14,14 +15,6 @@
 #define WIDTH 512
 #define HEIGHT 256
 #define SIZE 128
-
-static void check(pe_status status, const pe_error *error)
-{
-    if (status != PE_OK) {
-        fprintf(stderr, "multiscale: %s\n", error->message);
-        exit(1);
-    }
-}
 
 typedef struct times {
     double wall, processor;

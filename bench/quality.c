@@ -3,6 +3,7 @@
  *
  * Error: root mean square over the mean of the truth, of views with n.o > 0.15.  The paper's maps: 42 normals in pairs
  * of 400 x 200, weighted interpolation with a = 50. */
+#include "check.h"
 #include "parallel.h"
 #include "prefenv.h"
 #include "sequence.h"
@@ -27,14 +28,6 @@ typedef struct truth {
     const pe_surface *surface;
     view *views;
 } truth;
-
-static void check(pe_status status, const pe_error *error)
-{
-    if (status == PE_OK)
-        return;
-    fprintf(stderr, "quality: %s\n", error->message);
-    exit(1);
-}
 
 /* Normals evenly over the sphere, viewers by solid angle times cosine, as many as a sphere shows. */
 static void place_view(int k, pe_point *point)

@@ -6,6 +6,7 @@
  *     rivals views ENV MAPS           our maps, and filtered importance sampling, for views of every kind
  *
  * Each prints one JSON object. */
+#include "check.h"
 #include "fis.h"
 #include "prefenv.h"
 
@@ -24,14 +25,6 @@ static double now(void)
 
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(pe_status status, const pe_error *error)
-{
-    if (status != PE_OK) {
-        fprintf(stderr, "rivals: %s\n", error->message);
-        exit(1);
-    }
 }
 
 typedef struct comparison {
