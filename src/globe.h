@@ -3,12 +3,10 @@
 #ifndef PE_GLOBE_H
 #define PE_GLOBE_H
 
+#include "quad.h"
 #include "spline.h"
 
 #include <stddef.h>
-#include <string.h>
-
-typedef float pe_globe_texel __attribute__((vector_size(16)));
 
 /* Texels around a picture that its coefficients are repeated in. */
 #define PE_GLOBE_MARGIN 2
@@ -23,22 +21,20 @@ static inline size_t pe_globe_values(int width, int height)
 void pe_globe_coefficients(const float *rgb, int width, int height, float *line, float *coefficients);
 
 /* The spline at (u, v), u in [0, 1], v in [0, 1]: red, green, blue, and a fourth value without meaning. */
-static inline pe_globe_texel pe_globe_look(const float *coefficients, int width, int height, float u, float v)
+static inline pe_quad pe_globe_look(const float *coefficients, int width, int height, float u, float v)
 {
     float x = u * (float)width + 0.5f, y = v * (float)height + 0.5f; /* both at least 1/2 from the margin on */
     int column = (int)x, row = (int)y, stride = 3 * (width + 2 * PE_GLOBE_MARGIN);
     float across[4], down[4];
     const float *at = coefficients + (size_t)row * (size_t)stride + 3 * column;
-    pe_globe_texel sum = { 0, 0, 0, 0 };
+    pe_quad sum = { 0, 0, 0, 0 };
 
     pe_spline_weights(x - (float)column, across);
     pe_spline_weights(y - (float)row, down);
     for (int j = 0; j < 4; j++, at += stride) {
-        pe_globe_texel taps[4];
+        pe_quad a = pe_quad_load(at), b = pe_quad_load(at + 3), c = pe_quad_load(at + 6), d = pe_quad_load(at + 9);
 
-        for (int i = 0; i < 4; i++)
-            memcpy(&taps[i], at + 3 * i, sizeof taps[i]);
-        sum += down[j] * (across[0] * taps[0] + across[1] * taps[1] + across[2] * taps[2] + across[3] * taps[3]);
+        sum += down[j] * (across[0] * a + across[1] * b + across[2] * c + across[3] * d);
     }
     return sum;
 }

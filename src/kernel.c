@@ -8,6 +8,7 @@
 
 #include "lanes.h"
 #include "parallel.h"
+#include "quad.h"
 #include "spline.h"
 #include "status.h"
 #include "vector.h"
@@ -379,24 +380,17 @@ void pe_kernel_clear_cells(const pe_kernel *k, float *cells)
     memset(cells, 0, cell_bytes(k));
 }
 
-typedef float quad __attribute__((vector_size(16)));
-
-static void spread_light(const pe_disc *cells, const float direction[3], const quad *value, float *to)
+static void spread_light(const pe_disc *cells, const float direction[3], const pe_quad *value, float *to)
 {
     pe_disc_taps t;
 
     pe_disc_taps_at(cells, direction, &t);
     for (int j = 0; j < 4; j++) {
         float *cell = to + 4 * PE_KERNEL_GROUP * ((t.y + j - 1) * cells->width + t.x - 1);
-        quad part = t.down[j] * *value;
+        pe_quad part = t.down[j] * *value;
 
-        for (int i = 0; i < 4; i++, cell += 4 * PE_KERNEL_GROUP) {
-            quad sum;
-
-            memcpy(&sum, cell, sizeof sum);
-            sum += t.across[i] * part;
-            memcpy(cell, &sum, sizeof sum);
-        }
+        for (int i = 0; i < 4; i++, cell += 4 * PE_KERNEL_GROUP)
+            pe_quad_store(cell, pe_quad_load(cell) + t.across[i] * part);
     }
 }
 
@@ -404,7 +398,7 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
 {
     for (size_t light = 0; light < lights->blocks * PE_LIGHT_BLOCK; light++) {
         float direction[3];
-        quad value;
+        pe_quad value;
 
         pe_light_at(lights, light, direction, (float *)&value);
         spread_light(&k->cells, direction, &value, cells + 4 * member);
@@ -415,17 +409,15 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
  * in the order of a group's normals, or of a strip's frames. */
 typedef enum order { ONE_WEIGHT, OF_GROUP, OF_STRIP } order;
 
-typedef float quad __attribute__((vector_size(16)));
-
 INLINE void load_weight(order lanes, const float *weights, size_t cell, floats *weight)
 {
-    quad four;
+    pe_quad four;
 
     if (lanes == ONE_WEIGHT) {
         *weight = weights[cell] - (floats){ 0 };
         return;
     }
-    memcpy(&four, weights + TERMS * cell, sizeof four);
+    four = pe_quad_load(weights + TERMS * cell);
     if (lanes == OF_GROUP)
         *weight = __builtin_shufflevector(four, four, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
     else

@@ -17,10 +17,10 @@ pe_quad pe_look_beside_lamp(const float *corner, int step, int stride, const pe_
     pe_quad left[4], right[4], texels[2][2], low;
 
     for (int j = 0; j < 4; j++, corner += stride) {
-        pe_quad b = pe_look_load(corner + step), c = pe_look_load(corner + 2 * step);
+        pe_quad b = pe_quad_load(corner + step), c = pe_quad_load(corner + 2 * step);
 
-        left[j] = (pe_look_load(corner) + 4 * b + c) / 36;
-        right[j] = (b + 4 * c + pe_look_load(corner + 3 * step)) / 36;
+        left[j] = (pe_quad_load(corner) + 4 * b + c) / 36;
+        right[j] = (b + 4 * c + pe_quad_load(corner + 3 * step)) / 36;
     }
     for (int j = 0; j < 2; j++) {
         texels[j][0] = left[j] + 4 * left[j + 1] + left[j + 2];

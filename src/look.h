@@ -3,21 +3,8 @@
 #define PE_LOOK_H
 
 #include "maps.h"
+#include "quad.h"
 #include "spline.h"
-
-#include <string.h>
-
-typedef float pe_quad __attribute__((vector_size(16)));
-typedef int pe_quad_bits __attribute__((vector_size(16)));
-
-/* Four floats from a texel on: its three channels and one more, which is ignored. */
-static inline pe_quad pe_look_load(const float *texel)
-{
-    pe_quad v;
-
-    memcpy(&v, texel, sizeof v);
-    return v;
-}
 
 /* Beside a lamp narrower than its texels a spline swings below zero, which needs a coefficient below zero.  There a
  * lookup `sum` at the taps t, the first of which is at `corner`, `step` floats from the next and `stride` from the one
@@ -55,7 +42,7 @@ static inline pe_quad pe_look_at(const pe_maps *maps, const pe_aim *aim)
     pe_quad_bits signs = { 0, 0, 0, 0 };
 
     for (int j = 0; j < 4; j++, row += stride) {
-        pe_quad a = pe_look_load(row), b = pe_look_load(row + 3), c = pe_look_load(row + 6), d = pe_look_load(row + 9);
+        pe_quad a = pe_quad_load(row), b = pe_quad_load(row + 3), c = pe_quad_load(row + 6), d = pe_quad_load(row + 9);
 
         sum += t->down[j] * (t->across[0] * a + t->across[1] * b + t->across[2] * c + t->across[3] * d);
         signs |= (pe_quad_bits)a | (pe_quad_bits)b | (pe_quad_bits)c | (pe_quad_bits)d;

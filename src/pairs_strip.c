@@ -5,6 +5,7 @@
 
 #include "lanes.h"
 #include "look.h"
+#include "quad.h"
 #include "spline.h"
 #include "status.h"
 
@@ -97,10 +98,9 @@ CLONES static int look(const float *corner, int width, const pe_disc_taps *t, fl
 static void look_beside_lamp(const float *corner, int width, const pe_disc_taps *t, float lanes[LANES])
 {
     for (int k = 0; k < LANES; k += 4) {
-        pe_quad sum = pe_look_load(lanes + k);
+        pe_quad sum = pe_quad_load(lanes + k);
 
-        sum = pe_look_beside_lamp(corner + k, LANES, LANES * width, t, sum);
-        memcpy(lanes + k, &sum, sizeof sum);
+        pe_quad_store(lanes + k, pe_look_beside_lamp(corner + k, LANES, LANES * width, t, sum));
     }
 }
 

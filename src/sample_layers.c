@@ -6,7 +6,7 @@
 void pe_sample_layers(const pe_maps *maps, const double r[3], double lambda, double rgb[3])
 {
     double place = pe_layer_place(&maps->info, pe_smoothness_exponent(&maps->info.smoothness, lambda)), u, v;
-    pe_globe_texel sum = { 0, 0, 0, 0 };
+    pe_quad sum = { 0, 0, 0, 0 };
     float weights[4];
     int first = pe_layering_weights(maps->info.images, (float)place, weights);
 

@@ -298,7 +298,7 @@ static void test_globe(void)
     pe_globe_coefficients(rgb, W, H, line, coefficients);
     for (int k = 0; k < TRIES; k++) {
         double d[3], u, v, expected[3];
-        pe_globe_texel got;
+        pe_quad got;
 
         reference_random_direction(&state, d);
         if (k % 4 == 0) { /* within a texel of a pole */
