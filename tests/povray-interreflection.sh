@@ -6,44 +6,12 @@
 . "$srcdir/tests/tap.sh"
 . "$srcdir/tests/povray/render.sh"
 
-size=24
-pictures=12
+. "$srcdir/tests/povray/sphere.sh"
+
 chart chart.hdr 256 128
 chart other.hdr 256 128 0
 bake chart.hdr -o maps.exr --alpha 0.3
 bake other.hdr -o other.exr --alpha 0.3
-
-sphere() # BLOCK REST
-{
-    scene sphere.pov <<END
-#declare Place = clock * <0.37, -0.21, 0.11>;
-camera { location -3*z direction z right x up y translate Place }
-sphere {
-    0, 1
-    pigment { rgb 1 }
-    finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { $1 } } }
-    translate Place
-}
-$2
-END
-}
-
-one() # NAME BLOCK REST OPTION...
-{
-    sphere "$2" "$3"
-    render sphere.pov +W$size +H$size +FE +K1 "+O$1" "${@:4}" || note "$said"
-}
-
-# rmse IMAGE REFERENCE: relative
-rmse()
-{
-    "$PREFENV" diff "$1" "$2" --json | tr ',{' '\n\n' | sed -n 's/.*"relative_rmse": *\([0-9.e+-]*\).*/\1/p'
-}
-
-holds() # EXPRESSION
-{
-    [ "$(awk "BEGIN { print ($1) ? 1 : 0 }")" = 1 ]
-}
 
 # ---- the sky alone ----
 
@@ -59,10 +27,7 @@ ok 'max_trace_level 1: nothing is traced, and the lookup stays' "$PREFENV" diff 
 
 sphere 'exr "other.exr" interreflection 8 hdr "other.hdr" rotate <0, 120, 90>' \
     'sphere { 0, 1e5 hollow pigment { prefiltered_environment { hdr "other.hdr" } } finish { ambient 1 diffuse 0 } }'
-render sphere.pov +W$size +H$size +FE +KI1 +KF$pictures +KFI1 +KFF$pictures +Opicture.exr || note "$said"
-"$rays" rays $size 3 0,0,0 0,0,0 | "$PREFENV" exact other.hdr --alpha 0.3 >wanted.txt
-ok 'a shell all around: what it shows, exact but for noise' "$rays" noise 3 picture*.exr <wanted.txt
-note "$tap_output"
+is_exact 'a shell all around: what it shows, exact but for noise' 12 exact other.hdr --alpha 0.3
 
 things='plane { y, -1.1 pigment { rgb <0.3, 0.1, 0> } finish { ambient 1 diffuse 0 } translate Place }
     box { <0.9, -1, -1.5>, <2, 1, -0.5> pigment { rgb <0, 0, 2> } finish { ambient 1 diffuse 0 } translate Place }'
@@ -81,7 +46,7 @@ ok '160 rays take nine tenths' holds "$many < $plain / 10"
 # The rule that stops after a quarter of the rays leaves a bias: N rays miss what fills the share p of the lobe with the
 # chance (1 - p)^(N / 4), which keeps at most 0.06 of what was to be corrected with 16 rays.
 sphere "$block" "$things"
-render sphere.pov +W$size +H$size +FE +KI1 +KF8 +KFI1 +KFF8 +Omean.exr || note "$said"
+places mean 8
 oiiotool mean1.exr mean2.exr --add mean3.exr --add mean4.exr --add mean5.exr --add mean6.exr --add mean7.exr --add \
     mean8.exr --add --divc 8 -d half -o mean.exr
 bias=$(rmse mean.exr truth.exr)
