@@ -20,6 +20,7 @@
 #define SLOPE_MAX 100.0 /* where a density never falls so low */
 /* Coefficients below this share of the greatest are left out; of several weights, the first decides. */
 #define NEGLIGIBLE 1e-5
+#define PAST 8 /* floats after a row's weights: they are read eight at a time, of which four may count */
 
 typedef struct span {
     int cell, count; /* neighbours in a row of cells */
@@ -244,7 +245,7 @@ static void keep_span(row *r, int terms, int cell, const float *values, int widt
     if (first > last)
         return;
     if (!make_room((void **)&r->spans, &r->span_room, r->span_count + 1, sizeof *r->spans) ||
-        !make_room((void **)&r->weights, &r->weight_room, (r->weight_count + (size_t)width) * (size_t)terms,
+        !make_room((void **)&r->weights, &r->weight_room, (r->weight_count + (size_t)width) * (size_t)terms + PAST,
                    sizeof *r->weights)) {
         r->failed = 1;
         return;
@@ -409,46 +410,64 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
  * in the order of a group's normals, or of a strip's frames. */
 typedef enum order { ONE_WEIGHT, OF_GROUP, OF_STRIP } order;
 
-INLINE void load_weight(order lanes, const float *weights, size_t cell, floats *weight)
-{
-    pe_quad four;
+/* Half of a cell: a vector that AVX2 has, too, and that GCC's clones make well of one weight; of a whole cell's they make
+ * one lane after the other. */
+typedef float half __attribute__((vector_size(32)));
 
-    if (lanes == ONE_WEIGHT) {
-        *weight = weights[cell] - (floats){ 0 };
-        return;
-    }
-    four = pe_quad_load(weights + TERMS * cell);
-    if (lanes == OF_GROUP)
-        *weight = __builtin_shufflevector(four, four, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+INLINE half load_half(const float *from)
+{
+    half v;
+
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/* Adds a cell's half, weighed: `which` is 0 or 1. */
+INLINE void add_half(order lanes, const float *weights, const float *cell, int which, half *sum)
+{
+    half value = load_half(cell + 8 * which), four = load_half(weights);
+
+    if (lanes == ONE_WEIGHT)
+        *sum += *weights * value;
+    else if (lanes == OF_GROUP)
+        *sum += __builtin_shufflevector(four, four, 0, 1, 2, 3, 0, 1, 2, 3) * value;
+    else if (which == 0)
+        *sum += __builtin_shufflevector(four, four, 1, 2, 3, 1, 2, 3, 1, 2) * value;
     else
-        *weight = __builtin_shufflevector(four, four, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 0);
+        *sum += __builtin_shufflevector(four, four, 3, 1, 2, 3, 1, 2, 3, 0) * value;
+}
+
+INLINE void add_cell(order lanes, int grids, const float *weights, const float *const cells[2], size_t cell,
+                     half sums[2][2])
+{
+    for (int g = 0; g < grids; g++)
+        for (int which = 0; which < 2; which++)
+            add_half(lanes, weights, cells[g] + LANES * cell, which, &sums[g][which]);
 }
 
 /* A texel's sums over one or two grids of cells, which share the reading of its weights; each by way of four partial
  * sums, so that none waits for the one before it. */
 INLINE void sum_cells(order lanes, int grids, const row *r, const texel *t, const float *const cells[2], floats out[2])
 {
-    floats sums[2][4] = { { { 0 } } };
+    const size_t terms = lanes == ONE_WEIGHT ? 1 : TERMS;
+    half sums[4][2][2] = { { { { 0 } } } };
 
     for (size_t s = t->spans; s < t->spans + t->span_count; s++) {
-        size_t weight = r->spans[s].weights, first = (size_t)r->spans[s].cell * LANES;
-        int count = r->spans[s].count, k = 0;
-        floats w;
+        const float *weights = r->weights + terms * r->spans[s].weights;
+        size_t first = (size_t)r->spans[s].cell, count = (size_t)r->spans[s].count, k = 0;
 
         for (; k + 4 <= count; k += 4)
-            for (int i = 0; i < 4; i++) {
-                load_weight(lanes, r->weights, weight + (size_t)(k + i), &w);
-                for (int g = 0; g < grids; g++)
-                    sums[g][i] += w * load(cells[g] + first + (size_t)(k + i) * LANES);
-            }
-        for (; k < count; k++) {
-            load_weight(lanes, r->weights, weight + (size_t)k, &w);
-            for (int g = 0; g < grids; g++)
-                sums[g][0] += w * load(cells[g] + first + (size_t)k * LANES);
-        }
+            for (size_t i = 0; i < 4; i++)
+                add_cell(lanes, grids, weights + terms * (k + i), cells, first + k + i, sums[i]);
+        for (; k < count; k++)
+            add_cell(lanes, grids, weights + terms * k, cells, first + k, sums[0]);
     }
     for (int g = 0; g < grids; g++)
-        out[g] = (sums[g][0] + sums[g][1]) + (sums[g][2] + sums[g][3]);
+        for (int which = 0; which < 2; which++) {
+            half sum = (sums[0][g][which] + sums[1][g][which]) + (sums[2][g][which] + sums[3][g][which]);
+
+            memcpy((float *)&out[g] + 8 * which, &sum, sizeof sum);
+        }
 }
 
 typedef void sum_function(const row *r, const texel *t, const float *const cells[2], floats out[2]);
