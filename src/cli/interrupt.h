@@ -1,5 +1,5 @@
-/* interrupt.h - SIGINT, SIGTERM and SIGHUP wait while several threads write files, so that no part of one is left behind:
- * the library has them wait in a thread that writes, but they would come by another. */
+/* interrupt.h - SIGINT, SIGTERM and SIGHUP wait while several threads write files, so that no part of one is left
+ * behind: the library has them wait in a thread that writes, but they would come by another. */
 #ifndef CLI_INTERRUPT_H
 #define CLI_INTERRUPT_H
 

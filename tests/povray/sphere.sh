@@ -1,7 +1,8 @@
 # sphere.sh - the glossy sphere that several tests look at; read after render.sh:  . "$srcdir/tests/povray/sphere.sh"
 #
-#   sphere BLOCK REST        write sphere.pov: a sphere of radius 1 with that block, and the rest of the scene.  Its Place
-#                            depends on the clock, which makes other noise at each; the camera is three units before it
+#   sphere BLOCK REST        write sphere.pov: a sphere of radius 1 with that block, and the rest of the scene.  Its
+#                            Place depends on the clock, which makes other noise at each; the camera is three units
+#                            before it
 #   one NAME BLOCK REST [OPTION...]      the picture of the first place is NAME, $size pixels wide and high
 #   places NAME COUNT        one of each of so many places, NAME1.exr and on; of two digits if there are ten
 #   is_exact NAME COUNT COMMAND...       claim: so many places differ by noise alone from what that command of prefenv
