@@ -1,11 +1,11 @@
 /* sample_hemispheres.c - one bicubic lookup a hemisphere, mixed between representative normals and brush angles.
  *
  * In the frame of n_k the direction r is a point of n_k's picture, and the cubic B-spline there takes 4 x 4 texels.  A
- * map whose horizon r is below answers with its horizon's, and counts the less the lower r is, so that nothing jumps.  Where the brush may point anywhere,
- * as in all maps of several angles, and about the poles of a brush that is fixed, where tangents turn fast,
- * its direction at n is carried along to n_k's tangent plane, and the four angles about it are mixed by a cubic that
- * goes round and round in half turns, or whole ones.  Each angle's picture has its own turned frame, so that a narrow
- * lobe lies along its axes. */
+ * map whose horizon r is below answers with its horizon's, and counts the less the lower r is, so that nothing jumps.
+ * Where the brush may point anywhere, as in all maps of several angles, and about the poles of a brush that is fixed,
+ * where tangents turn fast, its direction at n is carried along to n_k's tangent plane, and the four angles about it
+ * are mixed by a cubic that goes round and round in half turns, or whole ones.  Each angle's picture has its own turned
+ * frame, so that a narrow lobe lies along its axes. */
 #include "look.h"
 #include "sample.h"
 #include "spline.h"
