@@ -134,6 +134,8 @@ for shard in '' 0/2 3/2 1 1/ /2 1/2/3 a/b; do
     refused "--shard '$shard'" "--shard '.*' is not I/N" $in -o $out --frames 8-9 --shard="$shard"
 done
 refused "--shard alone" "--shard is for sequences; give --frames, too" in_0008.exr -o x_1.exr --shard 1/2
+refused "a pattern without --frames" "in_%04d.exr: no such file; give --frames FIRST-LAST if it is a sequence" \
+    in_%04d.exr -o x_%04d.exr
 refused "--force alone" "--force is for sequences; give --frames, too" in_0008.exr -o x_1.exr --force
 refused "a missing frame" "in_0026.exr: No such file or directory; --frames 8-30 needs it" $in -o $out --frames 8-30
 refused "its own input" "in_0008.exr: is the input in_0008.exr itself" $in -o $in --frames 8-9

@@ -172,6 +172,10 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "%s is for sequences; give --frames, too", settings->shard ? "--shard" : "--force");
         return CLI_FAILURE;
     }
+    if (!settings->frames && frames_look_missing(settings->environment)) {
+        cli_error("bake", "%s: no such file; give --frames FIRST-LAST if it is a sequence", settings->environment);
+        return CLI_FAILURE;
+    }
     return check_roughness(settings);
 }
 

@@ -94,6 +94,15 @@ int frames_check_pattern(const char *command, const char *pattern)
     return CLI_FAILURE;
 }
 
+int frames_look_missing(const char *name)
+{
+    const char *percent = strchr(name, '%');
+    struct stat about;
+    int digits;
+
+    return percent && conversion(percent, &digits) > 0 && stat(name, &about) != 0;
+}
+
 char *frames_name(const char *pattern, int frame)
 {
     char *name = malloc(strlen(pattern) + DIGITS_MAX + 1), *to = name;

@@ -16,6 +16,9 @@ int frames_count(const frames *f);
 /* A pattern has one %d or %0Nd; %% stands for a percent sign.  CLI_FAILURE, with its error printed, if not so. */
 int frames_check_pattern(const char *command, const char *pattern);
 
+/* Is there no such file, and could its name be a pattern? */
+int frames_look_missing(const char *name);
+
 /* A frame's file name, by a pattern that was checked; to be freed.  NULL if memory is out. */
 char *frames_name(const char *pattern, int frame);
 
