@@ -32,4 +32,8 @@ pe_status pe_baker_shrink(const pe_baker *baker, const pe_env *env, pe_env **shr
 /* Is env of the baker's size? */
 pe_status pe_baker_check_size(const pe_baker *baker, const pe_env *env, pe_error *error);
 
+/* As pe_baker_bake_frames, of maps that are to be written and not to be looked up in: their splines may be missing. */
+pe_status pe_baker_bake_pictures(const pe_baker *baker, const pe_env *const *envs, int count,
+                                 const pe_bake_errors *errors, pe_maps **maps, pe_error *error);
+
 #endif

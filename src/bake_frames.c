@@ -54,6 +54,7 @@ static pe_status make_maps(frames *f, pe_error *error)
         if (status == PE_OK) {
             f->maps[k]->info.surface.ndf.table = NULL; /* the caller's, who may free it */
             f->maps[k]->suns = f->suns[k];
+            f->maps[k]->info.suns = info.method == PE_METHOD_HEMISPHERES ? f->suns[k].count : 0;
         }
     }
     return status;
@@ -86,8 +87,6 @@ static pe_status fill_maps(frames *f, pe_error *error)
         status =
             pe_fill_pairs_of_strip(&strip, b->kernel, b->lobe, f->suns, b->options.threads, &f->report, f->maps, error);
     pe_strip_free(&strip);
-    for (int k = 0; k < f->count && status == PE_OK; k++)
-        status = pe_maps_finish(f->maps[k], b->options.threads, error);
     return status;
 }
 
@@ -101,12 +100,12 @@ static pe_status record_errors(frames *f, const pe_bake_errors *known, pe_error 
         errors = *known;
     } else {
         pe_maps_info *info = &f->maps[0]->info;
-        pe_status status;
+        int threads = f->baker->options.threads;
+        pe_status status = pe_maps_finish(f->maps[0], threads, error);
 
         f->report = pe_stage_begin(&f->stage, ESTIMATE_SHARE);
-        status =
-            pe_estimate_errors(env_of(f, 0), f->maps[0], f->baker->lobe, f->baker->options.threads, &f->report, error);
-
+        if (status == PE_OK)
+            status = pe_estimate_errors(env_of(f, 0), f->maps[0], f->baker->lobe, threads, &f->report, error);
         if (status != PE_OK)
             return status;
         errors = (pe_bake_errors){ info->error_estimate, info->lookup_error };
@@ -183,8 +182,17 @@ static pe_status check_frames(const pe_baker *b, const pe_env *const *envs, int 
     return status;
 }
 
-pe_status pe_baker_bake_frames(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
-                               pe_maps **maps, pe_error *error)
+static pe_status drop(pe_maps **maps, int count, pe_status why)
+{
+    for (int k = 0; k < count; k++) {
+        pe_maps_free(maps[k]);
+        maps[k] = NULL;
+    }
+    return why;
+}
+
+pe_status pe_baker_bake_pictures(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
+                                 pe_maps **maps, pe_error *error)
 {
     frames f = { .baker = b, .count = count, .maps = maps, .stage = { &b->options, 0, 0 } };
     pe_status status = check_frames(b, envs, count, error);
@@ -196,9 +204,24 @@ pe_status pe_baker_bake_frames(const pe_baker *b, const pe_env *const *envs, int
         maps[k] = NULL;
     }
     status = b->kernel ? bake_by_kernel(&f, errors, error) : bake_one_by_one(&f, errors, error);
-    for (int k = 0; k < count && status != PE_OK; k++) {
-        pe_maps_free(maps[k]);
-        maps[k] = NULL;
-    }
-    return status;
+    return status == PE_OK ? status : drop(maps, count, status);
+}
+
+static pe_status finish(const pe_baker *b, pe_maps *maps, pe_error *error)
+{
+    int is_finished = maps->info.method != PE_METHOD_HEMISPHERES || maps->coefficients;
+
+    return is_finished ? PE_OK : pe_maps_finish(maps, b->options.threads, error);
+}
+
+pe_status pe_baker_bake_frames(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
+                               pe_maps **maps, pe_error *error)
+{
+    pe_status status = pe_baker_bake_pictures(b, envs, count, errors, maps, error);
+
+    if (status != PE_OK)
+        return status;
+    for (int k = 0; k < count && status == PE_OK; k++)
+        status = finish(b, maps[k], error);
+    return status == PE_OK ? status : drop(maps, count, status);
 }

@@ -1,12 +1,14 @@
 /* batch.c - see batch.h. */
 #include "batch.h"
 
+#include "bake.h"
 #include "cli.h"
 #include "interrupt.h"
 #include "parallel.h"
 #include "status.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -14,12 +16,20 @@
 /* Of so many bakes of several frames, one has its errors estimated, which takes longer than the bake. */
 #define ESTIMATE_EVERY 8
 
+/* A bake ends early where a signal waits for files that are being written. */
+static int look_for_interrupt(double fraction, void *data)
+{
+    (void)fraction;
+    (void)data;
+    return interrupt_waits();
+}
+
 static int draw_progress(double fraction, void *data)
 {
     batch *b = data;
 
-    progress_draw(&b->bar, (b->made + fraction * b->baking) / (b->count - b->left));
-    return 0;
+    progress_draw(&b->bar, (b->made + b->unwritten + fraction * b->baking) / (b->count - b->left));
+    return interrupt_waits();
 }
 
 static int fail(batch *b, const pe_error *error)
@@ -33,7 +43,7 @@ static int fail(batch *b, const pe_error *error)
 
 static void show_progress(batch *b)
 {
-    b->options.progress = progress_is_visible() && !b->quiet ? draw_progress : NULL;
+    b->options.progress = progress_is_visible() && !b->quiet ? draw_progress : look_for_interrupt;
     b->options.progress_data = b;
     progress_begin(&b->bar);
 }
@@ -84,12 +94,49 @@ static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
 static void write_maps(size_t index, void *data)
 {
     batch *b = data;
-    batch_frame *f = &b->frames[index];
+    batch_frame *f = &b->baked[index];
 
     f->status = pe_maps_write(f->maps, f->output, b->pixels, &f->error);
     f->needs_floats = b->pixels != PE_PIXEL_FLOAT && f->status == PE_ERROR_LIMIT;
     if (f->needs_floats)
         f->status = pe_maps_write(f->maps, f->output, PE_PIXEL_FLOAT, &f->error);
+}
+
+static void *write_all(void *data)
+{
+    batch *b = data;
+
+    pe_parallel_for((size_t)b->unwritten, b->options.threads, write_maps, b, NULL);
+    return NULL;
+}
+
+/* A file that is being written. */
+typedef struct writer {
+    pthread_t thread;
+    int runs;
+} writer;
+
+/* In the background, where there may be more than one thread. */
+static writer begin_writing(batch *b)
+{
+    writer w = { .runs = 0 };
+
+    for (int k = 0; k < b->unwritten; k++)
+        interrupt_hold(b->baked[k].output);
+    if (b->unwritten && b->options.threads != 1)
+        w.runs = pthread_create(&w.thread, NULL, write_all, b) == 0;
+    if (b->unwritten && !w.runs)
+        write_all(b);
+    return w;
+}
+
+static void free_frame(batch_frame *f)
+{
+    pe_env_free(f->env);
+    pe_maps_free(f->maps);
+    free(f->environment);
+    free(f->output);
+    *f = (batch_frame){ .env = NULL };
 }
 
 static int finish_frame(batch *b, batch_frame *f)
@@ -105,37 +152,48 @@ static int finish_frame(batch *b, batch_frame *f)
     return CLI_SUCCESS;
 }
 
-static int write_frames(batch *b, int count)
+/* Keeps the last one's maps. */
+static void clear_baked(batch *b)
+{
+    if (b->unwritten && b->baked[b->unwritten - 1].maps) {
+        pe_maps_free(b->maps);
+        b->maps = b->baked[b->unwritten - 1].maps;
+        b->baked[b->unwritten - 1].maps = NULL;
+    }
+    while (b->unwritten)
+        free_frame(&b->baked[--b->unwritten]);
+}
+
+static int end_writing(batch *b, writer *w)
 {
     int result = CLI_SUCCESS;
 
-    for (int k = 0; k < count; k++)
-        interrupt_hold(b->frames[k].output);
-    pe_parallel_for((size_t)count, b->options.threads, write_maps, b, NULL);
+    if (w->runs)
+        pthread_join(w->thread, NULL);
     interrupt_release();
-    for (int k = 0; k < count && result == CLI_SUCCESS; k++)
-        result = finish_frame(b, &b->frames[k]);
+    for (int k = 0; k < b->unwritten && result == CLI_SUCCESS; k++)
+        result = finish_frame(b, &b->baked[k]);
+    clear_baked(b);
     return result;
+}
+
+static int write_frames(batch *b)
+{
+    writer w = begin_writing(b);
+
+    return end_writing(b, &w);
 }
 
 /* ---- frames that wait to be made together ---- */
 
-static void free_frame(batch_frame *f)
-{
-    pe_env_free(f->env);
-    pe_maps_free(f->maps);
-    free(f->environment);
-    free(f->output);
-    *f = (batch_frame){ .env = NULL };
-}
-
-/* Keeps the last one's maps. */
+/* What was baked of those that wait goes where it waits to be written; the rest is dropped. */
 static void clear_frames(batch *b)
 {
-    if (b->waiting && b->frames[b->waiting - 1].maps) {
-        pe_maps_free(b->maps);
-        b->maps = b->frames[b->waiting - 1].maps;
-        b->frames[b->waiting - 1].maps = NULL;
+    for (int k = 0; k < b->waiting && b->frames[k].maps; k++) {
+        pe_env_free(b->frames[k].env);
+        b->frames[k].env = NULL;
+        b->baked[b->unwritten++] = b->frames[k];
+        b->frames[k] = (batch_frame){ .env = NULL };
     }
     while (b->waiting)
         free_frame(&b->frames[--b->waiting]);
@@ -175,20 +233,27 @@ static int bake_frames(batch *b, int count)
     pe_maps *maps[PE_FRAMES_MAX];
     pe_status status;
     pe_error error;
+    writer w;
 
     for (int k = 0; k < count; k++)
         envs[k] = b->frames[k].env;
     b->baking = count;
-    status = pe_baker_bake_frames(b->baker, envs, count, b->bakes++ % ESTIMATE_EVERY ? &b->errors : NULL, maps, &error);
-    if (status != PE_OK)
-        return fail(b, &error);
+    w = begin_writing(b);
+    status =
+        pe_baker_bake_pictures(b->baker, envs, count, b->bakes++ % ESTIMATE_EVERY ? &b->errors : NULL, maps, &error);
+    if (end_writing(b, &w) != CLI_SUCCESS || status != PE_OK) {
+        for (int k = 0; k < count && status == PE_OK; k++)
+            pe_maps_free(maps[k]);
+        return status != PE_OK ? fail(b, &error) : CLI_FAILURE;
+    }
     for (int k = 0; k < count; k++)
         b->frames[k].maps = maps[k];
     note_errors(b, maps[0]);
-    return write_frames(b, count);
+    return CLI_SUCCESS;
 }
 
-int batch_flush(batch *b)
+/* Bakes those that wait, while those baked before are written. */
+static int bake_waiting(batch *b)
 {
     int result = CLI_SUCCESS, sound;
 
@@ -199,7 +264,16 @@ int batch_flush(batch *b)
     if (result == CLI_SUCCESS && sound < b->waiting)
         result = fail(b, &b->frames[sound].error);
     clear_frames(b);
+    if (result != CLI_SUCCESS)
+        write_frames(b); /* those before it */
     return result;
+}
+
+int batch_flush(batch *b)
+{
+    int baked = bake_waiting(b), written = write_frames(b);
+
+    return baked == CLI_SUCCESS ? written : baked;
 }
 
 /* ---- what is there already ---- */
@@ -282,7 +356,7 @@ int batch_add(batch *b, const char *environment, const char *output)
         cli_error("bake", "out of memory");
         return CLI_FAILURE;
     }
-    return b->waiting == PE_FRAMES_MAX ? batch_flush(b) : CLI_SUCCESS;
+    return b->waiting == PE_FRAMES_MAX ? bake_waiting(b) : CLI_SUCCESS;
 }
 
 int batch_update(batch *b, const char *environment, const char *output)
@@ -303,7 +377,10 @@ static int bake_alone(batch *b, batch_frame *f)
     b->baking = 1;
     show_progress(b);
     f->status = pe_bake(f->env, &b->options, &f->maps, &f->error);
-    return f->status == PE_OK ? write_frames(b, 1) : fail(b, &f->error);
+    if (f->status != PE_OK)
+        return fail(b, &f->error);
+    clear_frames(b);
+    return write_frames(b);
 }
 
 int batch_make(batch *b, const char *environment, const char *output)
@@ -332,6 +409,7 @@ void batch_end(batch *b)
 void batch_free(batch *b)
 {
     clear_frames(b);
+    clear_baked(b);
     pe_maps_free(b->maps);
     pe_baker_free(b->baker);
 }

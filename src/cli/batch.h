@@ -31,6 +31,8 @@ typedef struct batch {
 
     batch_frame frames[PE_FRAMES_MAX]; /* `waiting` of them wait to be made, `baking` are being made */
     int waiting, baking;
+    batch_frame baked[PE_FRAMES_MAX]; /* `unwritten` of them wait to be written, while others are being made */
+    int unwritten;
     int bakes; /* of several frames, so far */
 
     pe_baker *baker; /* for the size of the first environment */
@@ -41,7 +43,8 @@ typedef struct batch {
  * cannot be done. */
 int batch_make(batch *b, const char *environment, const char *output);
 
-/* The same of a frame, in the company of others: it may wait for them until batch_flush. */
+/* The same of a frame, in the company of others: it may wait for them until batch_flush, and be written while others are
+ * being made. */
 int batch_add(batch *b, const char *environment, const char *output);
 int batch_flush(batch *b);
 

@@ -31,3 +31,16 @@ void interrupt_release(void)
 
     pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }
+
+int interrupt_waits(void)
+{
+    const int signals[] = { SIGINT, SIGTERM, SIGHUP };
+    sigset_t held, pending;
+    int waits = 0;
+
+    if (pthread_sigmask(SIG_SETMASK, NULL, &held) != 0 || sigpending(&pending) != 0)
+        return 0;
+    for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)
+        waits |= sigismember(&held, signals[k]) == 1 && sigismember(&pending, signals[k]) == 1;
+    return waits;
+}

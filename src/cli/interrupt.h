@@ -10,4 +10,7 @@ void interrupt_hold(const char *output);
 /* The signals take effect as before; one that came meanwhile does so now. */
 void interrupt_release(void);
 
+/* Has one come that is held?  Non-zero if so: what takes long ought to be ended. */
+int interrupt_waits(void);
+
 #endif
