@@ -16,9 +16,7 @@ extern "C" {
 #include <ImfIntAttribute.h>
 #include <ImfIO.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
-#include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
@@ -229,60 +227,6 @@ void set_attribute(Imf::Header &header, const pe_attribute &a)
     }
 }
 
-/* The display window is the whole file's, that of its first part. */
-Imf::Header header_of(const pe_exr_part &part, const pe_exr_part &first, pe_pixel_type type)
-{
-    Imf::Header header(part.width, part.height);
-
-    header.displayWindow() = Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(first.width - 1, first.height - 1));
-    header.compression() = Imf::ZIP_COMPRESSION;
-    header.zipCompressionLevel() = 1;
-    header.setName(part.name);
-    header.setType(Imf::SCANLINEIMAGE);
-    for (const char *channel : { "R", "G", "B" })
-        header.channels().insert(channel, Imf::Channel(type == PE_PIXEL_FLOAT ? Imf::FLOAT : Imf::HALF));
-    for (size_t k = 0; k < part.attribute_count; k++)
-        set_attribute(header, part.attributes[k]);
-    return header;
-}
-
-void write_part(Imf::OutputPart &out, const float *rgb, int width, int height, pe_pixel_type type)
-{
-    const size_t values = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
-    const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(width - 1, height - 1));
-    Imf::FrameBuffer frame;
-    std::vector<half> halves(type == PE_PIXEL_HALF ? values : 0);
-    static const char *const channels[3] = { "R", "G", "B" };
-
-    for (size_t k = 0; k < halves.size(); k++)
-        halves[k] = half(rgb[k]);
-    for (int c = 0; c < 3; c++) {
-        const size_t size = type == PE_PIXEL_HALF ? sizeof(half) : sizeof(float);
-        const void *base = type == PE_PIXEL_HALF ? static_cast<const void *>(halves.data() + c) : rgb + c;
-        frame.insert(channels[c], Imf::Slice::Make(type == PE_PIXEL_HALF ? Imf::HALF : Imf::FLOAT, base, window,
-                                                   3 * size, 3 * size * static_cast<size_t>(width)));
-    }
-    out.setFrameBuffer(frame);
-    out.writePixels(height);
-}
-
-std::vector<unsigned char> encode(const pe_exr_part *parts, int count, pe_pixel_type type)
-{
-    MemoryOutput output;
-    std::vector<Imf::Header> headers;
-
-    for (int k = 0; k < count; k++)
-        headers.push_back(header_of(parts[k], parts[0], type));
-    {
-        Imf::MultiPartOutputFile file(output, headers.data(), count, false, 0);
-        for (int k = 0; k < count; k++) {
-            Imf::OutputPart part(file, k);
-            write_part(part, parts[k].rgb, parts[k].width, parts[k].height, type);
-        }
-    } /* the file's destructor writes the offset tables */
-    return std::move(output.bytes);
-}
-
 std::vector<unsigned char> encode_gray(const float *values, int width, int height, const pe_attribute *attributes,
                                        size_t attribute_count)
 {
@@ -348,12 +292,6 @@ pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char 
         return status;
     *image = pe_image();
     return guarded(name, error, [&] { return read_image(bytes, size, name, image, error); });
-}
-
-pe_status pe_exr_encode(const pe_exr_part *parts, int count, pe_pixel_type type, unsigned char **bytes, size_t *size,
-                        pe_error *error)
-{
-    return guarded("OpenEXR output", error, [&] { return hand_out(encode(parts, count, type), bytes, size); });
 }
 
 pe_status pe_exr_encode_gray(const float *values, int width, int height, const pe_attribute *attributes,

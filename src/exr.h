@@ -1,7 +1,8 @@
 /* exr.h - OpenEXR behind a C interface.
  *
- * The C++ library is used because it decodes every compression (OpenEXRCore 3.1.5, its C sibling, lacks DWAA and
- * DWAB).  All of it works on bytes in memory; no C++ exception leaves this room. */
+ * Files are read by the C++ library, which decodes every compression (OpenEXRCore 3.1.5, its C sibling, lacks DWAA and
+ * DWAB), and parts written by the C library, which takes chunks that are deflated already.  All of it works on bytes in
+ * memory; no C++ exception leaves this room. */
 #ifndef PE_EXR_H
 #define PE_EXR_H
 

@@ -91,7 +91,20 @@ static void test_threads(pe_method method, pe_accuracy accuracy)
     pe_env_free(env);
 }
 
-static void test_round_trip(pe_method method, pe_pixel_type type)
+/* Of the maps' values, the largest relative difference from those read back. */
+static double worst_difference(const pe_maps *maps, const pe_maps *back)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
+    const float *a = pe_maps_image(maps, 0), *b = pe_maps_image(back, 0);
+    double worst = 0;
+
+    for (size_t k = 0; k < 3 * (size_t)info->images * (size_t)info->width * (size_t)info->height; k++)
+        worst = fmax(worst, fabs((double)(b[k] - a[k])) / (double)a[k]);
+    return worst;
+}
+
+/* Maps of a few texels do not shrink when they are deflated, and are written as they are. */
+static void test_round_trip(pe_method method, pe_pixel_type type, int height)
 {
     pe_env *env = noise(64, 32);
     pe_bake_options options = small;
@@ -100,6 +113,8 @@ static void test_round_trip(pe_method method, pe_pixel_type type)
     pe_error error;
 
     options.method = method;
+    options.width = 2 * height;
+    options.height = height;
     need(pe_bake(env, &options, &maps, NULL) == PE_OK, "bake");
     need(pe_maps_write(maps, in_folder("a.exr"), type, NULL) == PE_OK, "write");
     need(pe_maps_read(in_folder("a.exr"), &back, &error) == PE_OK, "%s", error.message);
@@ -113,10 +128,8 @@ static void test_round_trip(pe_method method, pe_pixel_type type)
            info->accuracy == again->accuracy && info->source_width == again->source_width &&
            info->error_estimate == again->error_estimate && strcmp(info->source_name, again->source_name) == 0,
        "what the file says of itself is what was written");
-    if (type == PE_PIXEL_FLOAT)
-        ok(memcmp(pe_maps_image(maps, 0), pe_maps_image(back, 0),
-                  sizeof(float) * 3 * (size_t)info->images * (size_t)info->width * (size_t)info->height) == 0,
-           "floats come back bit for bit");
+    ok(worst_difference(maps, back) <= (type == PE_PIXEL_FLOAT ? 0 : 0x1p-11), "%d rows of %s come back %s", height,
+       type == PE_PIXEL_FLOAT ? "floats" : "halves", type == PE_PIXEL_FLOAT ? "bit for bit" : "as the nearest half");
     pe_maps_free(maps);
     pe_maps_free(back);
     pe_env_free(env);
@@ -326,9 +339,11 @@ int main(void)
     test_threads(PE_METHOD_REPRESENTATIVE, PE_ACCURACY_EXACT);
     test_threads(PE_METHOD_REPRESENTATIVE, PE_ACCURACY_FAST);
     test_threads(PE_METHOD_BASELINE, PE_ACCURACY_EXACT);
-    test_round_trip(PE_METHOD_BASELINE, PE_PIXEL_HALF);
-    test_round_trip(PE_METHOD_REPRESENTATIVE, PE_PIXEL_FLOAT);
-    test_round_trip(PE_METHOD_REPRESENTATIVE, PE_PIXEL_HALF);
+    for (int height = 2; height <= 20; height += 18) {
+        test_round_trip(PE_METHOD_BASELINE, PE_PIXEL_HALF, height);
+        test_round_trip(PE_METHOD_REPRESENTATIVE, PE_PIXEL_FLOAT, height);
+        test_round_trip(PE_METHOD_REPRESENTATIVE, PE_PIXEL_HALF, height);
+    }
     test_damage();
     test_wrong_files();
     test_options();
