@@ -118,12 +118,15 @@ done
 for settings in '' --paper; do
     # shellcheck disable=SC2086 # none or one word
     timed 3 "$PREFENV" bake "$hdri" -o alone.exr --quiet $settings
-    theirs=$cpu_seconds
+    alone_wall=$wall_seconds
+    alone_cpu=$cpu_seconds
     # shellcheck disable=SC2086
-    timed 2 "$PREFENV" bake frame_%d.exr -o frame_%d.pe.exr --frames 1-20 --force --quiet $settings
+    timed 3 "$PREFENV" bake frame_%d.exr -o frame_%d.pe.exr --frames 1-20 --force --quiet $settings
+    ours=$(ratio "$wall_seconds" 20)
+    result "a frame of a sequence${settings:+, $settings}" "$ours" s 'a bake alone' "$alone_wall" \
+        "$(ratio "$alone_wall" "$ours")"
     ours=$(ratio "$cpu_seconds" 20)
-    result "a frame of a sequence${settings:+, $settings}" "$ours" 'CPU s' 'a bake alone' "$theirs" \
-        "$(ratio "$theirs" "$ours")"
+    result 'the same by processor time' "$ours" 'CPU s' 'a bake alone' "$alone_cpu" "$(ratio "$alone_cpu" "$ours")"
 done
 rm -f frame_*
 
@@ -143,8 +146,10 @@ if command -v cmgen oiiotool >/dev/null; then
     timed 2 cmgen --quiet --format=exr --size=$face --extract=cube --extract-blur=$roughness plain.exr
     cmgen_rate=$(ratio $texels "$wall_seconds")
     cmgen_cpu_rate=$(ratio $texels "$cpu_seconds")
-    timed 3 "$PREFENV" bake plain.exr -o head-on.exr --method baseline --ndf ggx --alpha $alpha --size $map \
-        --error 0.01 --quiet
+    # A third of cmgen's error is asked for, which is 6 %; the rate is that of whole commands, both reading plain.exr and
+    # writing OpenEXR.
+    timed 5 "$PREFENV" bake plain.exr -o head-on.exr --method baseline --ndf ggx --alpha $alpha --size $map \
+        --error 0.02 --quiet
     our_rate=$(ratio $((${map%x*} * ${map#*x})) "$wall_seconds")
     our_cpu_rate=$(ratio $((${map%x*} * ${map#*x})) "$cpu_seconds")
     "$RIVALS" cube plain.exr cube/plain $alpha >cube.json || die 'rivals failed; see above'
