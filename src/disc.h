@@ -45,12 +45,11 @@ static inline int pe_disc_direction(const pe_disc *disc, int x, int y, double di
 /* Where the unit direction lies, in texels from the picture's corner; a direction below the horizon lies on it. */
 static inline void pe_disc_point(const pe_disc *disc, const float direction[3], float point[2])
 {
-    float z = direction[2];
-    float scale =
-        z > 0 ? 1 / sqrtf(1 + z) : 1 / sqrtf(direction[0] * direction[0] + direction[1] * direction[1] + 1e-30f);
+    float x = direction[0], y = direction[1], z = direction[2];
+    float scale = 1 / sqrtf(z > 0 ? 1 + z : x * x + y * y + 1e-30f);
 
-    point[0] = direction[0] * scale * (float)pe_disc_radius(disc->width) + 0.5f * (float)disc->width;
-    point[1] = direction[1] * scale * (float)pe_disc_radius(disc->height) + 0.5f * (float)disc->height;
+    point[0] = x * scale * (float)pe_disc_radius(disc->width) + 0.5f * (float)disc->width;
+    point[1] = y * scale * (float)pe_disc_radius(disc->height) + 0.5f * (float)disc->height;
 }
 
 /* The 4 x 4 spline coefficients about a direction: those in the columns x - 1 to x + 2 of the rows y - 1 to y + 2, all
@@ -63,9 +62,10 @@ typedef struct pe_disc_taps {
 
 static inline int pe_disc_tap(float point, int side)
 {
-    int tap = (int)(point - 0.5f);
+    float tap = point - 0.5f, last = (float)(side - 3);
 
-    return tap < 1 ? 1 : tap > side - 3 ? side - 3 : tap;
+    tap = tap > 1 ? tap : 1;
+    return (int)(tap < last ? tap : last);
 }
 
 static inline void pe_disc_taps_at(const pe_disc *disc, const float direction[3], pe_disc_taps *taps)

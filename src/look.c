@@ -12,22 +12,22 @@ static inline pe_quad lesser(pe_quad a, pe_quad b)
 }
 
 /* A texel is the mean of the nine coefficients about it with the weights 1, 4, 1 in rows and columns. */
-pe_quad pe_look_beside_lamp(const float *corner, int step, int stride, const pe_disc_taps *t, pe_quad sum)
+pe_quad pe_look_beside_lamp(const float *corner, int step, int stride, float right, float below, pe_quad sum)
 {
-    pe_quad left[4], right[4], texels[2][2], low;
+    pe_quad first[4], second[4], texels[2][2], low;
 
     for (int j = 0; j < 4; j++, corner += stride) {
         pe_quad b = pe_quad_load(corner + step), c = pe_quad_load(corner + 2 * step);
 
-        left[j] = (pe_quad_load(corner) + 4 * b + c) / 36;
-        right[j] = (b + 4 * c + pe_quad_load(corner + 3 * step)) / 36;
+        first[j] = (pe_quad_load(corner) + 4 * b + c) / 36;
+        second[j] = (b + 4 * c + pe_quad_load(corner + 3 * step)) / 36;
     }
     for (int j = 0; j < 2; j++) {
-        texels[j][0] = left[j] + 4 * left[j + 1] + left[j + 2];
-        texels[j][1] = right[j] + 4 * right[j + 1] + right[j + 2];
+        texels[j][0] = first[j] + 4 * first[j + 1] + first[j + 2];
+        texels[j][1] = second[j] + 4 * second[j + 1] + second[j + 2];
     }
-    low = (1 - t->below) * ((1 - t->right) * texels[0][0] + t->right * texels[0][1]) +
-          t->below * ((1 - t->right) * texels[1][0] + t->right * texels[1][1]);
+    low = (1 - below) * ((1 - right) * texels[0][0] + right * texels[0][1]) +
+          below * ((1 - right) * texels[1][0] + right * texels[1][1]);
     low = lesser(LOW * low, lesser(lesser(texels[0][0], texels[0][1]), lesser(texels[1][0], texels[1][1])));
     return -lesser(-sum, -low);
 }

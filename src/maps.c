@@ -314,9 +314,10 @@ static void set_frames(pe_maps *maps)
 
         pe_maps_frame(maps, pe_maps_image_at(maps, vertex, 0), &frame);
         for (int c = 0; c < 3; c++) {
-            maps->frames[vertex][0][c] = (float)frame.t[c];
-            maps->frames[vertex][1][c] = (float)frame.b[c];
-            maps->frames[vertex][2][c] = (float)frame.n[c];
+            maps->frames[vertex][c][0] = (float)frame.t[c];
+            maps->frames[vertex][c][1] = (float)frame.b[c];
+            maps->frames[vertex][c][2] = (float)frame.n[c];
+            maps->frames[vertex][c][3] = 0;
         }
     }
 }

@@ -39,7 +39,7 @@ struct pe_maps {
     pe_disc disc;
     pe_suns suns;
     pe_poles poles;                     /* none unless info.pole_angles */
-    float (*frames)[3][3];              /* t, b, n of every vertex */
+    float (*frames)[3][4];              /* of every vertex: t, b, n along the world's x, y, z, and a 0 */
     float turns[PE_MAPS_ANGLES_MAX][2]; /* cosine and sine of every angle */
     float *coefficients;                /* cubic splines through the images; one float more at the end */
     pe_denominator *denominator;        /* NULL where there are no suns */

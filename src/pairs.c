@@ -136,13 +136,15 @@ typedef struct copy {
 static void copy_texel(const pe_maps *from, int vertex, const pe_frame *frame, const double world[3], float *out)
 {
     double local[3], o[3], rgb[3];
-    float toward[3];
+    pe_quad toward[3] = { { 0 } };
+    pe_aims aims;
     pe_quad shown;
 
     pe_frame_coordinates(frame, world, local);
     for (int k = 0; k < 3; k++)
-        toward[k] = (float)local[k];
-    shown = pe_look(from, vertex, toward);
+        toward[k][0] = (float)local[k];
+    pe_look_aim(from, &vertex, 1, toward, &aims);
+    shown = pe_look_at(from, &aims, 0);
     for (int k = 0; k < 3; k++)
         rgb[k] = fmax((double)shown[k], 0);
     pe_reflect(world, frame->n, o);

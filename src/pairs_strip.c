@@ -100,7 +100,7 @@ static void look_beside_lamp(const float *corner, int width, const pe_disc_taps 
     for (int k = 0; k < LANES; k += 4) {
         pe_quad sum = pe_quad_load(lanes + k);
 
-        pe_quad_store(lanes + k, pe_look_beside_lamp(corner + k, LANES, LANES * width, t, sum));
+        pe_quad_store(lanes + k, pe_look_beside_lamp(corner + k, LANES, LANES * width, t->right, t->below, sum));
     }
 }
 

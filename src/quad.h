@@ -21,4 +21,18 @@ static inline void pe_quad_store(float *to, pe_quad v)
     memcpy(to, &v, sizeof v);
 }
 
+/* The columns of four rows. */
+static inline void pe_quad_transpose(const pe_quad rows[4], pe_quad columns[4])
+{
+    pe_quad a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+    pe_quad b = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+    pe_quad c = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    pe_quad d = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+
+    columns[0] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+    columns[1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+    columns[2] = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+    columns[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+
 #endif

@@ -6,26 +6,27 @@
  * where tangents turn fast, its direction at n is carried along to n_k's tangent plane, and the four angles about it
  * are mixed by a cubic that goes round and round in half turns, or whole ones.  Each angle's picture has its own turned
  * frame, so that a narrow lobe lies along its axes. */
+#include "lanes.h"
 #include "look.h"
 #include "sample.h"
 #include "spline.h"
 
 /* A unit vector in n_k's frame. */
-static inline void enter(const float frame[3][3], const float world[3], float local[3])
+static inline pe_quad enter(const float frame[3][4], const float world[3])
 {
-    for (int row = 0; row < 3; row++)
-        local[row] = frame[row][0] * world[0] + frame[row][1] * world[1] + frame[row][2] * world[2];
+    return pe_quad_load(frame[0]) * world[0] + pe_quad_load(frame[1]) * world[1] + pe_quad_load(frame[2]) * world[2];
 }
 
-/* As many lookups as wait for each other's texels: those of a triangle at four angles. */
-#define LOOKUPS 12
+/* Lookups that are aimed together: those at a vertex's four angles, or those of several vertices of one angle. */
+typedef struct group {
+    pe_aims aims;
+    _Alignas(pe_quad) float weights[PE_AIMS];
+} group;
 
-typedef struct lookup {
-    pe_aim aim;
-    float weight;
-} lookup;
+/* Groups that wait for each other's texels: of each vertex of a triangle, and of those of one angle. */
+#define GROUPS 4
 
-/* What the maps looked up so far add up to, and the lookups that have been aimed and not yet added. */
+/* What the maps looked up so far add up to. */
 typedef struct mix {
     const pe_maps *maps;
     float r[3];
@@ -33,40 +34,57 @@ typedef struct mix {
     const double *n;
     float brush[3]; /* along it at n, once has_brush */
     int has_brush;
+
+    /* Vertices of one angle, not yet aimed at. */
+    int waiting, vertices[PE_AIMS];
+    pe_quad locals[PE_AIMS]; /* r in their frames, and their weights */
+
+    int count; /* of groups, aimed and not yet added */
+    group groups[GROUPS];
     pe_quad rgb;
     float weight;
-    int count;
-    lookup lookups[LOOKUPS];
 } mix;
 
-static void add_lookups(mix *sum)
+CLONES static void add_groups(mix *sum)
 {
-    for (int k = 0; k < sum->count; k++) {
-        sum->rgb += sum->lookups[k].weight * pe_look_at(sum->maps, &sum->lookups[k].aim);
-        sum->weight += sum->lookups[k].weight;
-    }
+    for (const group *g = sum->groups; g < sum->groups + sum->count; g++)
+        for (int k = 0; k < g->aims.count; k++) {
+            sum->rgb += g->weights[k] * pe_look_at(sum->maps, &g->aims, k);
+            sum->weight += g->weights[k];
+        }
     sum->count = 0;
 }
 
-static inline void aim(mix *sum, int image, const float local[3], float weight)
+static group *new_group(mix *sum)
 {
-    lookup *next;
-
-    if (sum->count == LOOKUPS)
-        add_lookups(sum);
-    next = &sum->lookups[sum->count++];
-    pe_look_aim(sum->maps, image, local, &next->aim);
-    next->weight = weight;
+    if (sum->count == GROUPS)
+        add_groups(sum);
+    return &sum->groups[sum->count++];
 }
 
-/* A direction of the vertex's frame, in the frame turned by angle k. */
-static void turn(const pe_maps *maps, int k, const float local[3], float turned[3])
-{
-    float c = maps->turns[k][0], s = maps->turns[k][1];
+/* How much a map counts where r is this high above its horizon: a lobe near the horizon is far narrower than that of n,
+ * and below it is seen displaced.  Found by trial on photographs.  Never nothing, as it may be the only map. */
+#define HORIZON 0.25f
+#define TRUST_MIN 0.001f
 
-    turned[0] = c * local[0] + s * local[1];
-    turned[1] = c * local[1] - s * local[0];
-    turned[2] = local[2];
+static inline float trust(float height)
+{
+    float share = (height + HORIZON) / (2 * HORIZON);
+
+    share = share > TRUST_MIN ? share : TRUST_MIN;
+    return share < 1 ? share : 1;
+}
+
+CLONES static void aim_at_vertices(mix *sum)
+{
+    group *g = new_group(sum);
+    pe_quad columns[4];
+
+    pe_quad_transpose(sum->locals, columns);
+    pe_look_aim(sum->maps, sum->vertices, sum->waiting, columns, &g->aims);
+    for (int k = 0; k < PE_AIMS; k++)
+        g->weights[k] = columns[3][k] * trust(columns[2][k]);
+    sum->waiting = 0;
 }
 
 /* The brush's tangent t at n. */
@@ -82,48 +100,50 @@ static void need_brush(mix *sum)
     sum->has_brush = 1;
 }
 
-static void aim_at_angles(mix *sum, int vertex, int angles, const float local[3], float weight)
+/* r is turned into the frame of each angle. */
+CLONES static void aim_at_angles(mix *sum, int vertex, int angles, pe_quad local, float weight)
 {
-    float brush[3], turned[3], weights[4], at;
-    int first;
+    const pe_maps *maps = sum->maps;
+    group *g = new_group(sum);
+    float weights[4], at;
+    int images[PE_AIMS], first, before;
+    pe_quad brush, c = { 0 }, s = { 0 }, locals[3];
 
     need_brush(sum);
-    enter((const float(*)[3])sum->maps->frames[vertex], sum->brush, brush);
-    at = (float)(atan2((double)brush[1], (double)brush[0]) / pe_maps_turn(&sum->maps->info) + 1) * (float)angles;
+    brush = enter((const float(*)[4])maps->frames[vertex], sum->brush);
+    at = (atan2f(brush[1], brush[0]) / (float)pe_maps_turn(&maps->info) + 1) * (float)angles;
     first = (int)at;
+    before = (first - 1 + angles) % angles;
     pe_interpolating_weights(at - (float)first, weights);
     for (int k = 0; k < 4; k++) {
-        int angle = (first + k - 1 + angles) % angles;
+        int angle = before + k < angles ? before + k : before + k - angles;
 
-        turn(sum->maps, angle, local, turned);
-        aim(sum, pe_maps_image_at(sum->maps, vertex, angle), turned, weight * weights[k]);
+        g->weights[k] = weight * weights[k];
+        images[k] = pe_maps_image_at(maps, vertex, angle);
+        c[k] = maps->turns[angle][0];
+        s[k] = maps->turns[angle][1];
     }
+    locals[0] = c * local[0] + s * local[1];
+    locals[1] = c * local[1] - s * local[0];
+    locals[2] = local[2] - (pe_quad){ 0 };
+    pe_look_aim(maps, images, 4, locals, &g->aims);
 }
 
-/* How much a map counts where r is this high above its horizon: a lobe near the horizon is far narrower than that of n,
- * and below it is seen displaced.  Found by trial on photographs.  Never nothing, as it may be the only map. */
-#define HORIZON 0.25f
-#define TRUST_MIN 0.001f
-
-static inline float trust(float height)
-{
-    float share = (height + HORIZON) / (2 * HORIZON);
-
-    return share > 1 ? 1 : share > TRUST_MIN ? share : TRUST_MIN;
-}
-
-static void aim_at_vertex(int vertex, double weight, void *data)
+static void add_vertex(int vertex, double weight, void *data)
 {
     mix *sum = data;
     int angles = pe_maps_angles_at(sum->maps, vertex);
-    float local[3], share;
+    pe_quad local = enter((const float(*)[4])sum->maps->frames[vertex], sum->r);
 
-    enter((const float(*)[3])sum->maps->frames[vertex], sum->r, local);
-    share = (float)weight * trust(local[2]);
-    if (angles > 1)
-        aim_at_angles(sum, vertex, angles, local, share);
-    else
-        aim(sum, vertex, local, share);
+    if (angles > 1) {
+        aim_at_angles(sum, vertex, angles, local, (float)weight * trust(local[2]));
+        return;
+    }
+    if (sum->waiting == PE_AIMS)
+        aim_at_vertices(sum);
+    local[3] = (float)weight;
+    sum->vertices[sum->waiting] = vertex;
+    sum->locals[sum->waiting++] = local;
 }
 
 void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3])
@@ -136,11 +156,16 @@ void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, con
     sum.direction = view->direction ? view->direction : maps->info.direction;
     sum.n = view->n;
     sum.has_brush = 0;
+    sum.waiting = 0;
+    for (int k = 0; k < PE_AIMS; k++)
+        sum.locals[k] = (pe_quad){ 0, 0, 0, 0 };
+    sum.count = 0;
     sum.rgb = (pe_quad){ 0, 0, 0, 0 };
     sum.weight = 0;
-    sum.count = 0;
-    pe_visit_normals(maps, sampling, view->n, aim_at_vertex, &sum);
-    add_lookups(&sum);
+    pe_visit_normals(maps, sampling, view->n, add_vertex, &sum);
+    if (sum.waiting)
+        aim_at_vertices(&sum);
+    add_groups(&sum);
     for (int c = 0; c < 3; c++)
         rgb[c] = sum.rgb[c] > 0 ? (double)(sum.rgb[c] / sum.weight) : 0;
     if (maps->suns.count)
