@@ -161,21 +161,21 @@ static void add_scattered(const pe_suns *suns, const pe_surface *surface, const 
     }
 }
 
-/* Whether the half vector with any sun is one that counts, and the sun up, or nearly: most lookups are nowhere near a
- * sun.  With unit vectors h.h = 2 + 2 o.w. */
+/* Whether the half vector with any sun may be one that counts: most lookups are nowhere near a sun.  Half vectors within
+ * theta of n have their suns within 2 theta of the mirror direction. */
 static int is_any_near(const pe_suns *suns, double farthest, const double n[3], const double o[3])
 {
-    const float n0 = (float)n[0], n1 = (float)n[1], n2 = (float)n[2];
-    const float o0 = (float)o[0], o1 = (float)o[1], o2 = (float)o[2];
-    const float o_n = (float)pe_dot(o, n), limit = farthest < 1e30 ? 1.001f * (float)farthest : 1e30f;
+    const float least = (float)(2 / farthest - 1.00001); /* cos(2 theta) = 2 cos^2(theta) - 1 */
     int count = (suns->count + 3) & ~3, found = 0;
+    double r[3];
+    float x, y, z;
 
-    for (int k = 0; k < count; k++) {
-        float x = suns->axes[0][k], y = suns->axes[1][k], z = suns->axes[2][k];
-        float w_n = n0 * x + n1 * y + n2 * z, h_n = o_n + w_n, h_h = 2 + 2 * (o0 * x + o1 * y + o2 * z);
-
-        found |= (w_n > -1e-5f) & (h_h < limit * h_n * h_n + 1e-5f);
-    }
+    pe_reflect(o, n, r);
+    x = (float)r[0];
+    y = (float)r[1];
+    z = (float)r[2];
+    for (int k = 0; k < count; k++)
+        found |= x * suns->axes[0][k] + y * suns->axes[1][k] + z * suns->axes[2][k] > least;
     return found;
 }
 
@@ -184,21 +184,25 @@ static void add_weighted(const pe_suns *suns, const pe_surface *surface, const p
 {
     double farthest = pe_denominator_farthest(denominator); /* 1 / cos^2(theta_h) */
     double local[3], weight, sum[3] = { 0, 0, 0 };
+    int seen = 0;
     pe_frame frame;
 
     if (!is_any_near(suns, farthest, n, o))
         return;
-    pe_frame_make(n, direction, &frame);
     for (int k = 0; k < suns->count; k++) {
         const double *w = suns->direction[k];
         double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] }, up = pe_dot(h, n), d;
 
         if (!(pe_dot(w, n) > PE_HORIZON) || pe_dot(h, h) > farthest * up * up)
             continue;
+        if (!seen++)
+            pe_frame_make(n, direction, &frame);
         d = density(&surface->ndf, &frame, h);
         for (int c = 0; c < 3; c++)
             sum[c] += d * suns->power[k][c];
     }
+    if (!seen)
+        return;
     pe_frame_coordinates(&frame, o, local);
     weight = pe_denominator_at(denominator, local);
     for (int c = 0; c < 3; c++)
