@@ -196,13 +196,18 @@ static pe_status check_half_range(const pe_maps *maps, const char *path, pe_erro
 {
     const float largest_half = 65504;
     size_t values = pe_maps_values(maps);
+    float largest = 0;
+    int is_over = 0;
 
     for (size_t k = 0; k < values; k++)
-        if (maps->rgb[k] > largest_half)
-            return pe_fail(error, PE_ERROR_LIMIT,
-                           "%s: a radiance of %g is more than the 65504 a half float holds; write floats (--float)",
-                           path, (double)maps->rgb[k]);
-    return PE_OK;
+        is_over |= maps->rgb[k] > largest_half;
+    if (!is_over)
+        return PE_OK;
+    for (size_t k = 0; k < values; k++)
+        largest = fmaxf(largest, maps->rgb[k]);
+    return pe_fail(error, PE_ERROR_LIMIT,
+                   "%s: a radiance of %g is more than the 65504 a half float holds; write floats (--float)", path,
+                   (double)largest);
 }
 
 static pe_atlas atlas_of(const pe_maps_info *info)
