@@ -338,3 +338,13 @@ void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3])
                       (double)env->rgb[3 * ((size_t)taps[k].y * (size_t)env->width + (size_t)taps[k].x) + (size_t)c];
     }
 }
+
+void pe_env_mean(const pe_env *env, double rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int y = 0; y < env->height; y++)
+        for (int x = 0; x < env->width; x++)
+            for (int c = 0; c < 3; c++)
+                rgb[c] += env->grid.solid_angle_sr[y] / (4 * M_PI) *
+                          (double)env->rgb[3 * ((size_t)y * (size_t)env->width + (size_t)x) + (size_t)c];
+}

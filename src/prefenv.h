@@ -110,6 +110,9 @@ const char *pe_env_remark(const pe_env *env);  /* what is doubtful as an environ
 /* Radiance from `direction` (any length but zero), bilinear between texel centres, over the poles and around. */
 void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);
 
+/* The mean radiance over the sphere. */
+void pe_env_mean(const pe_env *env, double rgb[3]);
+
 /* Direction (unit) of the point (u, v) of a lat-long map, and back: u in [0, 1), v in [0, 1]. */
 void pe_latlong_direction(double u, double v, double direction[3]);
 void pe_latlong_coordinates(const double direction[3], double *u, double *v);

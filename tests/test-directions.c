@@ -170,6 +170,27 @@ static void test_visible(pe_ndf_kind kind, double alpha_x, double alpha_y, doubl
        theta, chi, cells);
 }
 
+/* Beckmann's slopes along the viewer's direction are the inverse of their distribution function. */
+static void test_inverse(void)
+{
+    static const double shares[] = { 1e-9, 1e-4, 0.01, 0.2, 0.5, 0.8, 0.99, 1 - 1e-6 };
+    pe_ndf ndf = { PE_NDF_BECKMANN, 1, 1, NULL };
+    double worst = 0;
+
+    for (int degrees = 0; degrees < 90; degrees++)
+        for (int k = 0; k < 8; k++) {
+            double s = sin(degrees * M_PI / 180), c = cos(degrees * M_PI / 180), o[3] = { s, 0, c }, h[3];
+            double least = c < 6 * s ? -c / s : -6, gauss = exp(-least * least), x, below, all;
+
+            pe_ndf_sample_visible(&ndf, o, shares[k], 0.5, h);
+            x = h[0] / h[2];
+            below = c / 2 * (erf(x) - erf(least)) + s / (2 * sqrt(M_PI)) * (gauss - exp(-x * x));
+            all = c / 2 * erfc(least) + s / (2 * sqrt(M_PI)) * gauss;
+            worst = fmax(worst, fabs(below / all - shares[k]));
+        }
+    ok(worst < 1e-7, "visible slopes of Beckmann's are inverted but for %.1e", worst);
+}
+
 /* Any viewer, any width: directions are unit, shares numbers, and those of Eq. 4 by visible normals 1 or nothing. */
 static void test_everything(void)
 {
@@ -223,6 +244,7 @@ int main(void)
     }
     for (int k = 0; k < 8; k++)
         test_visible(k % 2 ? PE_NDF_GGX : PE_NDF_BECKMANN, 0.3, k / 2 % 2 ? 0.3 : 0.8, k / 4 ? 1.45 : 0.8);
+    test_inverse();
     test_everything();
     pe_ndf_table_free(table);
     pe_env_free(env);

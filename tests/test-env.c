@@ -67,7 +67,7 @@ static void test_frame(void)
 static void test_texels(int width, int height)
 {
     pe_env *env = make(width, height, reference_noise(width, height, 5));
-    double solid_angle = 0;
+    double solid_angle = 0, sum[3] = { 0 }, mean[3];
     int centres = 1, nearest = 1;
 
     for (int y = 0; y < height; y++)
@@ -78,12 +78,17 @@ static void test_texels(int width, int height)
             reference_direction(width, height, x, y, d, &theta);
             solid_angle += env->grid.solid_angle_sr[y];
             pe_env_lookup(env, d, rgb);
-            for (int c = 0; c < 3; c++)
+            for (int c = 0; c < 3; c++) {
                 centres &= fabs(rgb[c] - (double)texel[c]) < 1e-10;
+                sum[c] += rgb[c] * env->grid.solid_angle_sr[y] / (4 * M_PI);
+            }
             nearest &= pe_env_texel(env, d) == texel;
         }
     ok(centres && nearest, "%d x %d: a texel's centre looks up that texel", width, height);
     ok(fabs(solid_angle - 4 * M_PI) < 1e-12, "%d x %d: solid angles add up to 4 pi", width, height);
+    pe_env_mean(env, mean);
+    ok(fabs(mean[0] - sum[0]) + fabs(mean[1] - sum[1]) + fabs(mean[2] - sum[2]) < 1e-9, "%d x %d: the mean is %.6f",
+       width, height, mean[0]);
     pe_env_free(env);
 }
 
