@@ -1,14 +1,15 @@
 #!/bin/bash
 # bench/bounces.sh - `make table1`: what quality costs. [Motegi Table 1, Fig. 6a]
 #
-#   bunny      Monte Carlo of single scattering (`samples N`), the same traced with every bounce (`samples N traced`)
-#              and the prefiltered lookup: error against processor seconds of tracing, for N of SAMPLES
-#   workshop   a lookup, the lookup corrected by a few rays (`interreflection N`), and everything traced
+#   single     the bunny: Monte Carlo of single scattering (`samples N`) and the prefiltered lookup, and beside them the
+#              same traced with every bounce (`samples N traced`): error against processor seconds, for N of SAMPLES
+#   bunny      with every bounce: a lookup, the lookup corrected by a few rays (`interreflection N`), everything traced
+#   workshop   the same of parts that stand close to each other
 #
 # Errors are relative RMSE over the metal's pixels: of single scattering against `samples all`, the sum over every
-# texel, which has no noise; of what is traced against TRUTH rays at each point, other ones.  Tables on standard output,
-# table1.json and table1.svg in the build tree.  Some minutes on two idle cores; SIDE, SAMPLES, RAYS and TRUTH make it
-# shorter or better.
+# texel, which has no noise; of what is traced against TRUTH rays at each point, other ones.  Seconds are those of
+# tracing, the least of three pictures unless they take long.  Tables on standard output, table1.json and table1.svg in
+# the build tree.  Four minutes on two idle cores; SIDE, SAMPLES, RAYS and TRUTH make it shorter or better.
 
 set -euo pipefail
 
@@ -22,8 +23,8 @@ die()
 
 side=${SIDE:-160}
 samples=${SAMPLES:-4 64 256 1024 4096}
-rays=${RAYS:-4 8 16 32 64}
-truth=${TRUTH:-1024}
+rays=${RAYS:-2 4 5 8 16 32 64}
+truth=${TRUTH:-4096}
 command -v oiiotool >/dev/null || die 'oiiotool is not installed: apt-get install openimageio-tools'
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -56,6 +57,7 @@ cat >bunny.pov <<'END'
               #case (0) exr "maps.exr" #break
               #case (1) exr "environment.exr" roughness 0.1 samples N #break
               #case (2) exr "environment.exr" roughness 0.1 samples N traced #break
+              #case (2.5) exr "maps.exr" interreflection N exr "environment.exr" #break
               #else exr "environment.exr" roughness 0.1 samples all
             #end
             transform Frame
@@ -73,7 +75,14 @@ END
 # picture NAME SCENE WIDTH HEIGHT OPTION...: NAME.exr; sets trace_cpu_seconds
 picture()
 {
-    render "$1.log" "$2" "$1.exr" "+W$3" "+H$4" -A +L. "${@:5}"
+    local least=
+
+    for _ in 1 2 3; do
+        render "$1.log" "$2" "$1.exr" "+W$3" "+H$4" -A +L. "${@:5}"
+        least=$(awk -v a="$trace_cpu_seconds" -v b="${least:-1e9}" 'BEGIN { print a < b ? a : b }')
+        if awk -v s="$least" 'BEGIN { exit !(s > 1) }'; then break; fi
+    done
+    trace_cpu_seconds=$least
 }
 
 # error_of NAME REFERENCE MASK: relative RMSE
@@ -93,42 +102,48 @@ row()
     echo "$(basename "$1" .txt): $2 $3: ${trace_cpu_seconds:-0} s, error $error" >&2
 }
 
-bunny()
+single()
 {
     local n
 
     picture mask bunny.pov "$side" "$side" Declare=Mode=4
     picture single bunny.pov "$side" "$side" Declare=Mode=3
     picture every bunny.pov "$side" "$side" Declare=Mode=2 "Declare=N=$truth" Declare=Shift=0.0000001
-    picture maps bunny.pov "$side" "$side" Declare=Mode=0
-    row bunny.txt prefiltered 0 maps single mask
+    picture lookup bunny.pov "$side" "$side" Declare=Mode=0
+    row single.txt prefiltered 0 lookup single mask
     for n in $samples; do
         picture sampled bunny.pov "$side" "$side" Declare=Mode=1 "Declare=N=$n"
-        row bunny.txt reference "$n" sampled single mask
+        row single.txt reference "$n" sampled single mask
     done
     for n in $samples; do
-        [ "$n" -le "$truth" ] || continue
         picture traced bunny.pov "$side" "$side" Declare=Mode=2 "Declare=N=$n"
-        row bunny.txt traced "$n" traced every mask
+        row single.txt traced "$n" traced every mask
+    done
+}
+
+# bounces FILE SCENE WIDTH LOOKUP CORRECTED TRACED WORD: a scene with every bounce, by its modes and its word for N, and
+# with its mask and truth, mask.exr and every.exr, which are there
+bounces()
+{
+    local n mode
+
+    picture lookup "$2" "$3" "$side" "Declare=Mode=$4"
+    row "$1" lookup 0 lookup every mask
+    for mode in "interreflection $5" "traced $6"; do
+        for n in $rays; do
+            picture bounced "$2" "$3" "$side" "Declare=Mode=${mode#* }" "Declare=$7=$n"
+            row "$1" "${mode% *}" "$n" bounced every mask
+        done
     done
 }
 
 workshop()
 {
-    local n width=$((4 * side / 3)) scene=$srcdir/scenes/workshop.pov
+    local width=$((4 * side / 3)) scene=$srcdir/scenes/workshop.pov
 
     picture mask "$scene" "$width" "$side" Declare=Mode=3
     picture every "$scene" "$width" "$side" Declare=Mode=1 "Declare=Rays=$truth" Declare=Shift=0.0000001
-    picture maps "$scene" "$width" "$side" Declare=Mode=0
-    row workshop.txt lookup 0 maps every mask
-    for n in $rays; do
-        picture corrected "$scene" "$width" "$side" Declare=Mode=2 "Declare=Rays=$n"
-        row workshop.txt interreflection "$n" corrected every mask
-    done
-    for n in $rays; do
-        picture traced "$scene" "$width" "$side" Declare=Mode=1 "Declare=Rays=$n"
-        row workshop.txt traced "$n" traced every mask
-    done
+    bounces workshop.txt "$scene" "$width" 0 2 1 Rays
 }
 
 # json FILE: its rows
@@ -201,23 +216,41 @@ report()
     awk '{ printf "%-16s %6s %12s %9.2f%%\n", $1, $2 ? $2 : "-", $3, 100 * $4 }' "$2"
 }
 
-bunny
-workshop
-printf '{\n  "side": %d,\n  "bunny": [%s],\n  "workshop": [%s]\n}\n' "$side" "$(json bunny.txt)" \
-    "$(json workshop.txt)" >"${top_builddir:?}/table1.json"
+# what_it_takes FILE: the corrected lookup, where it has a third of the lookup's error
+what_it_takes()
 {
-    echo '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="300" font-family="sans-serif" font-size="11">'
-    echo '<rect width="800" height="300" fill="#fff"/>'
-    panel 0 'bunny: error by processor seconds' bunny.txt
-    panel 400 'workshop: error by processor seconds' workshop.txt
+    local lookup third
+
+    read -r _ _ lookup third <"$1"
+    third=$(awk -v e="$third" 'BEGIN { print e / 3 }')
+    awk -v third="$third" -v lookup="$lookup" -v corrected="$(seconds_at "$third" interreflection "$1")" \
+        -v traced="$(seconds_at "$third" traced "$1")" 'BEGIN {
+            printf "%.1f %%, a third of the lookup'\''s error, takes %.1f x its time corrected, %.1f x traced\n",
+                100 * third, corrected / lookup, traced / lookup }'
+}
+
+single
+bounces bunny.txt bunny.pov "$side" 0 2.5 2 N
+workshop
+printf '{\n  "side": %d,\n  "truth": %d,\n  "single": [%s],\n  "bunny": [%s],\n  "workshop": [%s]\n}\n' "$side" \
+    "$truth" "$(json single.txt)" "$(json bunny.txt)" "$(json workshop.txt)" >"${top_builddir:?}/table1.json"
+{
+    echo '<svg xmlns="http://www.w3.org/2000/svg" width="1200" height="300" font-family="sans-serif" font-size="11">'
+    echo '<rect width="1200" height="300" fill="#fff"/>'
+    panel 0 'bunny: error by processor seconds' single.txt
+    panel 400 'bunny, every bounce' bunny.txt
+    panel 800 'workshop, every bounce' workshop.txt
     echo '</svg>'
 } >svg.part
 mv svg.part "$top_builddir/table1.svg"
 
-report bunny bunny.txt
-read -r _ _ fast error <bunny.txt
-awk -v fast="$fast" -v slow="$(seconds_at "$error" reference bunny.txt)" -v error="$error" \
-    'BEGIN { printf "prefiltered: %.2f %% in %.2f s; the reference takes %.1f s for that: %.0f x\n",
+report single single.txt
+read -r _ _ fast error <single.txt
+awk -v fast="$fast" -v slow="$(seconds_at "$error" reference single.txt)" -v error="$error" \
+    'BEGIN { printf "prefiltered: %.2f %% in %.3f s; the reference takes %.1f s for that: %.0f x\n",
         100 * error, fast, slow, slow / (fast > 0.001 ? fast : 0.001) }'
-report workshop workshop.txt
+for scene in bunny workshop; do
+    report "$scene" "$scene.txt"
+    what_it_takes "$scene.txt"
+done
 echo "$top_builddir/table1.json $top_builddir/table1.svg"

@@ -25,7 +25,7 @@ ok 'max_trace_level 1: nothing is traced, and the lookup stays' "$PREFENV" diff 
 
 # ---- things in the way ----
 
-sphere 'exr "other.exr" interreflection 8 hdr "other.hdr" rotate <0, 120, 90>' \
+sphere 'exr "other.exr" interreflection 32 hdr "other.hdr" rotate <0, 120, 90>' \
     'sphere { 0, 1e5 hollow pigment { prefiltered_environment { hdr "other.hdr" } } finish { ambient 1 diffuse 0 } }'
 is_exact 'a shell all around: what it shows, exact but for noise' 12 exact other.hdr --alpha 0.3
 
@@ -79,6 +79,36 @@ room 'a room shuts the sky out, at every bounce' 'global_settings { max_trace_le
 room '... with radiosity' 'global_settings { max_trace_level 100 adc_bailout 0 radiosity { count 20 } }'
 room '... with photons' 'global_settings { max_trace_level 100 adc_bailout 0 photons { count 2000 } }
     light_source { <0, 3, -3>, 0 }'
+
+# Under a white sky a white floor is white, and so is what glossy balls on it show: the light that radiosity gathers from
+# the sky and from the metal, and that the metal shows of both, counts once.  (With twice the sky the floor were 2.)
+scene open.pov <<'END'
+global_settings { max_trace_level 20 adc_bailout 0 radiosity { count 60 recursion_limit 4 } }
+camera { location <0, 1.2, -5> look_at 0 angle 50 }
+sky_sphere { pigment { rgb 1 } }
+plane { y, -0.8 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }
+#declare Glossy = finish { ambient 0 diffuse 0
+    reflection { 1 prefiltered_environment { exr "sky.exr" roughness 0.6 interreflection 4 } } }
+sphere { -0.8*x, 0.8 pigment { rgb 1 } finish { Glossy } }
+sphere { 0.8*x, 0.8 pigment { rgb 1 } finish { Glossy } }
+END
+render open.pov +W40 +H40 +FE +WT1 +Oopen.exr || note "$said"
+oiiotool --create 40x40 3 --fill:color=1,1,1 40x40 -d half -o white.exr
+ok 'radiosity under a white sky: everything is white' "$PREFENV" diff open.exr white.exr --fail-above 0.05
+note "$tap_output"
+
+# A ring throws its caustic on the floor, whose light is that of the photons alone; metal shows it as tracing does.
+caustic='global_settings { photons { count 20000 } }
+    light_source { <3, 6, -3>, 2 translate Place }
+    plane { y, -1.1 pigment { rgb 0.6 } finish { ambient 0 diffuse 0.6 } translate Place }
+    cylinder { <0.4, -1.1, -1.6>, <0.4, -0.8, -1.6>, 0.5 open pigment { rgb 1 }
+        finish { ambient 0 diffuse 0 reflection 0.9 } photons { target reflection on } translate Place }'
+one truth.exr 'hdr "chart.hdr" roughness 0.3 samples 100 traced' "$caustic" +WT1
+one corrected.exr 'exr "maps.exr" interreflection 64 hdr "chart.hdr"' "$caustic" +WT1
+one without.exr 'exr "maps.exr" interreflection 64 hdr "chart.hdr"' "${caustic/count 20000/count 1}" +WT1
+photons=$(rmse corrected.exr truth.exr) without=$(rmse without.exr truth.exr)
+note "relative RMSE with photons: $photons; without any: $without"
+ok 'photons are seen as they are traced' holds "$photons < 0.05 && $without > 1.5 * $photons"
 
 # Grey matter under radiosity, seen in metal: as tracing sees it.
 floor='global_settings { radiosity { count 40 error_bound 0.8 } }
