@@ -53,6 +53,20 @@ bias=$(rmse mean.exr truth.exr)
 note "relative RMSE of the mean of 8 pictures: $bias"
 ok '... and the mean of 8 pictures is nearer by half' holds "$bias < $corrected / 1.7"
 
+# A sun in one texel, and black things before it: a ray that meets one of them with the sun behind takes no more away
+# than there is, and none that passes adds more, so that no place is darker than black or brighter than the lookup, with
+# however few rays.
+oiiotool --create 64x32 3 --fill:color=0.2,0.2,0.2 64x32 --box:color=3000,3000,3000:fill=1 40,9,40,9 -d float -o sun.exr
+bake sun.exr -o sunny.exr --alpha 0.3
+things='box { <-3, -1.2, -2>, <-1.1, 3, 3> pigment { rgb 0 } finish { ambient 0 diffuse 0 } translate Place }
+    plane { y, -1.1 pigment { rgb 0 } finish { ambient 0 diffuse 0 } translate Place }'
+one above.exr 'exr "sunny.exr"' "$things"
+one below.exr 'exr "sunny.exr" interreflection 3 exr "sun.exr"' "$things"
+oiiotool above.exr below.exr --sub -o left.exr
+least=$(oiiotool --stats below.exr left.exr | sed -n 's/^ *Stats Min: *\([^ ]*\) .*/\1/p' | sort -g | head -n 1)
+note "least of what is shown and of what is taken away: $least; the sky alone: $(rmse below.exr above.exr) off"
+ok 'what hides a sun leaves no speckles' holds "$least > -0.001 && $(rmse below.exr above.exr) > 0.1"
+
 # ---- nothing leaks, nothing counts twice ----
 
 # A sky, baked in the scene, twice as bright as the room that shuts it out: everything is the room's grey, however
@@ -80,8 +94,8 @@ room '... with radiosity' 'global_settings { max_trace_level 100 adc_bailout 0 r
 room '... with photons' 'global_settings { max_trace_level 100 adc_bailout 0 photons { count 2000 } }
     light_source { <0, 3, -3>, 0 }'
 
-# Under a white sky a white floor is white, and so is what glossy balls on it show: the light that radiosity gathers from
-# the sky and from the metal, and that the metal shows of both, counts once.  (With twice the sky the floor were 2.)
+# Under a white sky a white floor is white, and so is what glossy balls on it show: the light that radiosity gathers
+# from the sky and from the metal, and that the metal shows of both, counts once.
 scene open.pov <<'END'
 global_settings { max_trace_level 20 adc_bailout 0 radiosity { count 60 recursion_limit 4 } }
 camera { location <0, 1.2, -5> look_at 0 angle 50 }
