@@ -24,7 +24,7 @@ struct pe_multiscale {
 #define THRESHOLD 0.001
 
 /* Texels of the smoothest layer for each standard deviation of its lobe, and layers for each doubling of the exponent,
- * for an error of ERROR_OF_THESE on photographs; both meet it with the fourth power.  tests/test-layered.c */
+ * for an error of ERROR_OF_THESE on photographs; both meet it with the fourth power.  tests/test-voxels.c */
 #define TEXELS_PER_DEVIATION 1.0
 #define LAYERS_PER_OCTAVE 1.0
 #define ERROR_OF_THESE 0.002

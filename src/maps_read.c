@@ -1,298 +1,12 @@
-/* maps_file.c - maps as an OpenEXR file: pictures, and header attributes that say all there is to know.
- *
- * Hemispheres: one part for each brush angle, "angle.00" and so on, with the hemispheres of all normals side by side,
- * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
- * prefenv:normal; a baseline file has the one part "baseline".  Layers: part "layer.00" is the smoothest, each lat-long
- * and with attribute prefenv:exponent.  Voxels: one part "voxels", the slices of the cube side by side, row by row.
- *
- * Attributes of the first part: prefenv:version, :method,
- * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
- * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
- * :lookupError, :poleAngles, :poleCosine, :suns, :turn (the degrees that the angles divide), and for each sun
- * :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold
- * and :lost. */
-#include "atlas.h"
-#include "exr.h"
-#include "maps.h"
+/* maps_read.c - maps from an OpenEXR file, all of it checked: see maps_file.h. */
+#include "maps_file.h"
 #include "status.h"
 #include "vector.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const method_names[] = PE_METHOD_NAMES;
-static const char *const lost_names[] = { "spread", "dark" };
-static const char *const accuracy_names[] = { "auto", "exact", "fast" };
-static const char *const weight_names[] = { "ndf", "microfacet" };
-static const char *const ndf_names[] = PE_NDF_NAMES;
-
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-#define PART_NAME_MAX 32
-#define ATTRIBUTES 17
-#define HEMISPHERE_ATTRIBUTES 8
-#define ROUGHNESS_ATTRIBUTES 7
-#define SUN_NAME_MAX 40
-
-/* ---- write ---- */
-
-static pe_attribute integer(const char *name, int value)
-{
-    return (pe_attribute){ .name = name, .type = PE_ATTRIBUTE_INT, .integer = value };
-}
-
-static pe_attribute number(const char *name, double value)
-{
-    return (pe_attribute){ .name = name, .type = PE_ATTRIBUTE_DOUBLE, .number = value };
-}
-
-static pe_attribute vector(const char *name, const double v[3])
-{
-    return (pe_attribute){ .name = name, .type = PE_ATTRIBUTE_VECTOR, .vector = { v[0], v[1], v[2] } };
-}
-
-static pe_attribute string(const char *name, const char *value)
-{
-    return (pe_attribute){ .name = name, .type = PE_ATTRIBUTE_STRING, .string = value };
-}
-
-static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
-{
-    const pe_attribute all[ATTRIBUTES] = {
-        integer("prefenv:version", PE_MAPS_FORMAT_VERSION),
-        string("prefenv:method", method_names[info->method]),
-        string("prefenv:weight", weight_names[info->surface.weight]),
-        vector("prefenv:eta", info->surface.eta),
-        vector("prefenv:k", info->surface.k),
-        string("prefenv:ndf", ndf_names[info->surface.ndf.kind]),
-        string("prefenv:ndfName", info->ndf_name),
-        number("prefenv:alphaX", info->surface.ndf.alpha_x),
-        number("prefenv:alphaY", info->surface.ndf.alpha_y),
-        vector("prefenv:direction", info->direction),
-        integer("prefenv:normals", info->normals),
-        string("prefenv:source", info->source_name),
-        integer("prefenv:sourceWidth", info->source_width),
-        integer("prefenv:sourceHeight", info->source_height),
-        string("prefenv:accuracy", accuracy_names[info->accuracy]),
-        number("prefenv:errorEstimate", info->error_estimate),
-        number("prefenv:errorWanted", info->error_wanted),
-    };
-
-    memcpy(out, all, sizeof all);
-}
-
-static int turn_of(const pe_maps_info *info)
-{
-    return (int)nearbyint(pe_maps_turn(info) * 180 / M_PI);
-}
-
-static void describe_hemispheres(const pe_maps_info *info, pe_attribute out[HEMISPHERE_ATTRIBUTES])
-{
-    const pe_attribute all[HEMISPHERE_ATTRIBUTES] = {
-        integer("prefenv:angles", info->angles),
-        integer("prefenv:width", info->width),
-        integer("prefenv:height", info->height),
-        number("prefenv:lookupError", info->lookup_error),
-        integer("prefenv:suns", info->suns),
-        integer("prefenv:turn", turn_of(info)),
-        integer("prefenv:poleAngles", info->pole_angles),
-        number("prefenv:poleCosine", info->pole_cosine),
-    };
-
-    memcpy(out, all, sizeof all);
-}
-
-static void describe_roughness(const pe_maps_info *info, pe_attribute out[ROUGHNESS_ATTRIBUTES])
-{
-    const pe_attribute all[ROUGHNESS_ATTRIBUTES] = {
-        integer("prefenv:size", info->smoothness.size),
-        number("prefenv:window", info->smoothness.window),
-        number("prefenv:levels", info->smoothness.levels),
-        number("prefenv:lookupError", info->lookup_error),
-        integer("prefenv:width", info->width),
-        number("prefenv:threshold", info->threshold),
-        string("prefenv:lost", lost_names[info->lost]),
-    };
-
-    memcpy(out, all, sizeof all);
-}
-
-/* Everything a part needs while it is being written. */
-typedef struct part_room {
-    char name[PART_NAME_MAX];
-    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + ROUGHNESS_ATTRIBUTES + 2 * PE_SUNS_MAX];
-    char sun_names[2 * PE_SUNS_MAX][SUN_NAME_MAX];
-} part_room;
-
-static void name_sun(int sun, const char *what, char name[SUN_NAME_MAX])
-{
-    snprintf(name, SUN_NAME_MAX, "prefenv:sun.%02d.%s", sun, what);
-}
-
-static size_t describe_suns(const pe_suns *suns, part_room *room, pe_attribute *out)
-{
-    for (int k = 0; k < suns->count; k++) {
-        name_sun(k, "direction", room->sun_names[2 * k]);
-        name_sun(k, "power", room->sun_names[2 * k + 1]);
-        out[2 * k] = vector(room->sun_names[2 * k], suns->direction[k]);
-        out[2 * k + 1] = vector(room->sun_names[2 * k + 1], suns->power[k]);
-    }
-    return 2 * (size_t)suns->count;
-}
-
-/* Several images of one size are one part, side by side. */
-static int has_atlas(const pe_maps_info *info)
-{
-    return info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_VOXELS;
-}
-
-static int parts_of(const pe_maps_info *info)
-{
-    return has_atlas(info) ? info->angles : info->images;
-}
-
-static void name_part(const pe_maps_info *info, int k, char name[PART_NAME_MAX])
-{
-    static const char *const names[] = { "", "angle", "normal", "baseline", "layer", "voxels" };
-    int digits = snprintf(NULL, 0, "%d", parts_of(info) - 1);
-
-    if (info->method == PE_METHOD_BASELINE || info->method == PE_METHOD_VOXELS)
-        snprintf(name, PART_NAME_MAX, "%s", names[info->method]);
-    else
-        snprintf(name, PART_NAME_MAX, "%s.%0*d", names[info->method], digits > 2 ? digits : 2, k);
-}
-
-static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *part)
-{
-    size_t count = 0;
-    double n[3];
-
-    name_part(&maps->info, k, room->name);
-    if (maps->info.method == PE_METHOD_REPRESENTATIVE) {
-        pe_maps_normal(maps, k, n);
-        room->attributes[count++] = vector("prefenv:normal", n);
-    }
-    if (maps->info.method == PE_METHOD_LAYERS)
-        room->attributes[count++] = number("prefenv:exponent", pe_maps_image_exponent(maps, k));
-    if (k == 0) {
-        describe(&maps->info, room->attributes + count);
-        count += ATTRIBUTES;
-    }
-    if (k == 0 && maps->info.method == PE_METHOD_HEMISPHERES) {
-        describe_hemispheres(&maps->info, room->attributes + count);
-        count += HEMISPHERE_ATTRIBUTES;
-        count += describe_suns(&maps->suns, room, room->attributes + count);
-    }
-    if (k == 0 && pe_method_has_roughness(maps->info.method)) {
-        describe_roughness(&maps->info, room->attributes + count);
-        count += ROUGHNESS_ATTRIBUTES;
-    }
-    part->name = room->name;
-    part->attributes = room->attributes;
-    part->attribute_count = count;
-}
-
-static pe_status check_half_range(const pe_maps *maps, const char *path, pe_error *error)
-{
-    const float largest_half = 65504;
-    size_t values = pe_maps_values(maps);
-    float largest = 0;
-    int is_over = 0;
-
-    for (size_t k = 0; k < values; k++)
-        is_over |= maps->rgb[k] > largest_half;
-    if (!is_over)
-        return PE_OK;
-    for (size_t k = 0; k < values; k++)
-        largest = fmaxf(largest, maps->rgb[k]);
-    return pe_fail(error, PE_ERROR_LIMIT,
-                   "%s: a radiance of %g is more than the 65504 a half float holds; write floats (--float)", path,
-                   (double)largest);
-}
-
-static pe_atlas atlas_of(const pe_maps_info *info)
-{
-    return pe_atlas_of(info->images / info->angles, info->width, info->height);
-}
-
-static size_t atlas_values(const pe_atlas *atlas)
-{
-    return 3 * (size_t)atlas->width * (size_t)atlas->height;
-}
-
-/* The atlases of all parts, one after the other: in image k lies the tile k / angles of part k % angles. */
-static float *make_atlases(const pe_maps *maps, const pe_atlas *atlas)
-{
-    int angles = maps->info.angles;
-    float *pictures = calloc((size_t)angles * atlas_values(atlas), sizeof *pictures);
-
-    for (int k = 0; pictures && k < maps->info.images; k++)
-        pe_atlas_insert(atlas, k / angles, pe_maps_image(maps, k),
-                        pictures + (size_t)(k % angles) * atlas_values(atlas));
-    return pictures;
-}
-
-/* Gives the parts their pictures; *own is to be freed. */
-static pe_status add_pictures(const pe_maps *maps, pe_exr_part *parts, float **own, pe_error *error)
-{
-    pe_atlas atlas = atlas_of(&maps->info);
-
-    *own = NULL;
-    for (int k = 0; k < parts_of(&maps->info) && !has_atlas(&maps->info); k++) {
-        parts[k].rgb = pe_maps_image(maps, k);
-        pe_maps_image_size(maps, k, &parts[k].width, &parts[k].height);
-    }
-    if (!has_atlas(&maps->info))
-        return PE_OK;
-    *own = make_atlases(maps, &atlas);
-    if (!*own)
-        return pe_fail_memory(error, "an atlas of maps");
-    for (int k = 0; k < parts_of(&maps->info); k++) {
-        parts[k].rgb = *own + (size_t)k * atlas_values(&atlas);
-        parts[k].width = atlas.width;
-        parts[k].height = atlas.height;
-    }
-    return PE_OK;
-}
-
-static pe_status encode(const pe_maps *maps, pe_pixel_type type, unsigned char **bytes, size_t *size, pe_error *error)
-{
-    int count = parts_of(&maps->info);
-    part_room *rooms = calloc((size_t)count, sizeof *rooms);
-    pe_exr_part *parts = calloc((size_t)count, sizeof *parts);
-    float *own = NULL;
-    pe_status status = PE_OK;
-
-    if (!rooms || !parts)
-        status = pe_fail_memory(error, "the parts of a maps file");
-    for (int k = 0; rooms && parts && k < count; k++)
-        fill_part(maps, k, &rooms[k], &parts[k]);
-    if (status == PE_OK)
-        status = add_pictures(maps, parts, &own, error);
-    if (status == PE_OK)
-        status = pe_exr_encode(parts, count, type, bytes, size, error);
-    free(own);
-    free(parts);
-    free(rooms);
-    return status;
-}
-
-pe_status pe_maps_write(const pe_maps *maps, const char *path, pe_pixel_type type, pe_error *error)
-{
-    unsigned char *bytes;
-    size_t size;
-    pe_status status = type == PE_PIXEL_HALF ? check_half_range(maps, path, error) : PE_OK;
-
-    if (status == PE_OK)
-        status = encode(maps, type, &bytes, &size, error);
-    if (status != PE_OK)
-        return status;
-    status = pe_file_write(path, bytes, size, error);
-    free(bytes);
-    return status;
-}
-
-/* ---- read ---- */
 
 /* Where attributes are read from, and whom to tell if one is missing. */
 typedef struct header {
@@ -309,7 +23,7 @@ static pe_status missing(const header *from, const char *attribute)
 
 static pe_status get_integer(const header *from, const char *name, int *value)
 {
-    pe_attribute a = integer(name, 0);
+    pe_attribute a = pe_attribute_integer(name, 0);
 
     if (!pe_exr_get_attribute(from->file, 0, &a))
         return missing(from, name);
@@ -319,7 +33,7 @@ static pe_status get_integer(const header *from, const char *name, int *value)
 
 static pe_status get_number(const header *from, const char *name, double *value)
 {
-    pe_attribute a = number(name, 0);
+    pe_attribute a = pe_attribute_number(name, 0);
 
     if (!pe_exr_get_attribute(from->file, 0, &a))
         return missing(from, name);
@@ -332,7 +46,7 @@ static pe_status get_number(const header *from, const char *name, double *value)
 static pe_status get_vector(const header *from, int part, const char *name, double value[3])
 {
     static const double zero[3] = { 0, 0, 0 };
-    pe_attribute a = vector(name, zero);
+    pe_attribute a = pe_attribute_vector(name, zero);
 
     if (!pe_exr_get_attribute(from->file, part, &a))
         return missing(from, name);
@@ -355,7 +69,7 @@ static void show(const char *text, char shown[SHOWN_BYTES])
 /* The index of a string attribute among `names`. */
 static pe_status get_choice(const header *from, const char *name, const char *const *names, int count, int *value)
 {
-    pe_attribute a = string(name, NULL);
+    pe_attribute a = pe_attribute_string(name, NULL);
     char shown[SHOWN_BYTES];
 
     if (!pe_exr_get_attribute(from->file, 0, &a))
@@ -390,21 +104,21 @@ static pe_status read_version(const header *from, int *out)
 static pe_status check_turn(const header *from, const pe_maps_info *info)
 {
     int turn = 180;
-    pe_attribute a = integer("prefenv:turn", 0);
+    pe_attribute a = pe_attribute_integer("prefenv:turn", 0);
 
     if (pe_exr_get_attribute(from->file, 0, &a))
         turn = a.integer;
-    if (info->angles == 1 || turn == turn_of(info))
+    if (info->angles == 1 || turn == pe_maps_degrees(info))
         return PE_OK;
     return pe_fail(from->error, PE_ERROR_FORMAT,
                    "%s: its %d angles divide %d degrees where %d are read here; bake it again", from->name,
-                   info->angles, turn, turn_of(info));
+                   info->angles, turn, pe_maps_degrees(info));
 }
 
 /* What hemispheres have besides. */
 static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
 {
-    pe_attribute poles = integer("prefenv:poleAngles", 0);
+    pe_attribute poles = pe_attribute_integer("prefenv:poleAngles", 0);
     pe_status status = PE_OK;
 
     info->angles = 1;
@@ -442,7 +156,7 @@ static pe_status read_roughness_info(const header *from, pe_maps_info *info)
     AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
     AND_THEN(get_integer(from, "prefenv:width", &info->width))
     AND_THEN(get_number(from, "prefenv:threshold", &info->threshold))
-    AND_THEN(get_choice(from, "prefenv:lost", lost_names, COUNT(lost_names), &lost))
+    AND_THEN(get_choice(from, "prefenv:lost", pe_lost_names, COUNT(pe_lost_names), &lost))
     info->lost = (pe_lost_weight)lost;
     info->height = info->method == PE_METHOD_LAYERS ? info->width / 2 : info->width;
     info->images = info->method == PE_METHOD_LAYERS ? pe_exr_part_count(from->file) : info->smoothness.size;
@@ -451,15 +165,15 @@ static pe_status read_roughness_info(const header *from, pe_maps_info *info)
 
 static pe_status read_sun(const header *from, int k, pe_suns *suns)
 {
-    char name[SUN_NAME_MAX];
+    char name[PE_SUN_NAME_MAX];
     double direction[3], power[3];
     pe_status status;
 
-    name_sun(k, "direction", name);
+    pe_maps_name_sun(k, "direction", name);
     status = get_vector(from, 0, name, direction);
     if (status == PE_OK && !(fabs(pe_dot(direction, direction) - 1) < 1e-6))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %s is not of length 1", from->name, name);
-    name_sun(k, "power", name);
+    pe_maps_name_sun(k, "power", name);
     AND_THEN(get_vector(from, 0, name, power))
     for (int c = 0; status == PE_OK && c < 3; c++)
         if (!(power[c] >= 0 && power[c] <= 4 * M_PI * (double)PE_RADIANCE_MAX))
@@ -472,25 +186,26 @@ static pe_status read_sun(const header *from, int k, pe_suns *suns)
 
 static pe_status read_info(const header *from, pe_maps_info *info)
 {
-    pe_attribute source = string("prefenv:source", ""), ndf_name = string("prefenv:ndfName", "");
-    pe_attribute wanted = number("prefenv:errorWanted", 0);
+    pe_attribute source = pe_attribute_string("prefenv:source", ""),
+                 ndf_name = pe_attribute_string("prefenv:ndfName", "");
+    pe_attribute wanted = pe_attribute_number("prefenv:errorWanted", 0);
     int method = 0, weight = 0, kind = 0, accuracy = 0;
     pe_status status;
 
     *info = (pe_maps_info){ .format_version = 0 };
     status = read_version(from, &info->format_version);
-    AND_THEN(get_choice(from, "prefenv:method", method_names, COUNT(method_names), &method))
-    AND_THEN(get_choice(from, "prefenv:weight", weight_names, COUNT(weight_names), &weight))
+    AND_THEN(get_choice(from, "prefenv:method", pe_method_names, COUNT(pe_method_names), &method))
+    AND_THEN(get_choice(from, "prefenv:weight", pe_weight_names, COUNT(pe_weight_names), &weight))
     AND_THEN(get_vector(from, 0, "prefenv:eta", info->surface.eta))
     AND_THEN(get_vector(from, 0, "prefenv:k", info->surface.k))
-    AND_THEN(get_choice(from, "prefenv:ndf", ndf_names, COUNT(ndf_names), &kind))
+    AND_THEN(get_choice(from, "prefenv:ndf", pe_ndf_names, COUNT(pe_ndf_names), &kind))
     AND_THEN(get_number(from, "prefenv:alphaX", &info->surface.ndf.alpha_x))
     AND_THEN(get_number(from, "prefenv:alphaY", &info->surface.ndf.alpha_y))
     AND_THEN(get_vector(from, 0, "prefenv:direction", info->direction))
     AND_THEN(get_integer(from, "prefenv:normals", &info->normals))
     AND_THEN(get_integer(from, "prefenv:sourceWidth", &info->source_width))
     AND_THEN(get_integer(from, "prefenv:sourceHeight", &info->source_height))
-    AND_THEN(get_choice(from, "prefenv:accuracy", accuracy_names, COUNT(accuracy_names), &accuracy))
+    AND_THEN(get_choice(from, "prefenv:accuracy", pe_accuracy_names, COUNT(pe_accuracy_names), &accuracy))
     AND_THEN(get_number(from, "prefenv:errorEstimate", &info->error_estimate))
     if (status != PE_OK)
         return status;
@@ -556,7 +271,7 @@ static pe_status check_parts(const header *from, pe_maps_info *info)
             return pe_fail(from->error, PE_ERROR_FORMAT, "%s: part %d is %lld x %lld, part 0 is %lld x %lld",
                            from->name, k, width, height, first_width, first_height);
     }
-    if (has_atlas(info))
+    if (pe_maps_have_atlas(info))
         return PE_OK;
     if (first_width > PE_MAPS_SIDE_MAX || first_height > PE_MAPS_SIDE_MAX)
         return pe_fail(from->error, PE_ERROR_LIMIT, "%s: size %lld x %lld is more than %d on a side", from->name,
@@ -635,8 +350,8 @@ static pe_status check_atlas(const header *from, const pe_atlas *atlas)
 
 static pe_status read_atlases(const header *from, pe_maps *maps)
 {
-    pe_atlas atlas = atlas_of(&maps->info);
-    size_t values = atlas_values(&atlas);
+    pe_atlas atlas = pe_maps_atlas(&maps->info);
+    size_t values = pe_atlas_values(&atlas);
     int tiles = maps->info.images / maps->info.angles;
     float *picture;
     pe_status status = check_atlas(from, &atlas);
@@ -671,7 +386,7 @@ static pe_status read_file(const header *from, pe_maps **out)
     if (status != PE_OK)
         return pe_fail(from->error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", from->name,
                        inner.message);
-    status = has_atlas(&info) ? read_atlases(from, maps) : read_latlong(from, maps);
+    status = pe_maps_have_atlas(&info) ? read_atlases(from, maps) : read_latlong(from, maps);
     AND_THEN(pe_maps_finish(maps, 0, from->error))
     maps->info.format_version = info.format_version;
     if (status == PE_OK)
@@ -713,7 +428,7 @@ pe_status pe_maps_read(const char *path, pe_maps **maps, pe_error *error)
 
 int pe_maps_detect(const void *bytes, size_t size)
 {
-    pe_attribute version = integer("prefenv:version", 0);
+    pe_attribute version = pe_attribute_integer("prefenv:version", 0);
 
     return pe_exr_carries(bytes, size, &version);
 }
