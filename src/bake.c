@@ -17,9 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
-#define AUTO_EXACT_TEXELS_MAX (128 * 64)
-
 /* What one bake shares. */
 typedef struct job {
     const pe_baker *baker;
@@ -112,22 +109,34 @@ static pe_status fill_hemispheres(job *j, const pe_cloud *cloud, pe_maps *maps, 
     return pe_fill_hemispheres(cloud, b->lobe, reach_of(b), b->options.threads, &j->report, maps, error);
 }
 
-static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
+static pe_status fill_without_suns(job *j, const pe_env *rest, pe_maps *maps, pe_error *error)
 {
-    pe_env *rest;
     pe_cloud cloud;
-    pe_status status = pe_suns_draw_out(env, j->fine, &maps->info.surface, &maps->suns, &rest, error);
+    pe_status status = make_cloud(j, rest, &cloud, error);
 
-    if (status != PE_OK)
-        return status;
-    status = make_cloud(j, rest, &cloud, error);
     if (status == PE_OK) {
         status = fill_hemispheres(j, &cloud, maps, error);
         pe_cloud_free(&cloud);
     }
+    return status == PE_OK ? pe_maps_finish(maps, j->baker->options.threads, error) : status;
+}
+
+pe_status pe_baker_fill(const pe_baker *b, const pe_env *rest, pe_report *report, pe_maps *maps, pe_error *error)
+{
+    job j = { .baker = b, .fine = rest, .report = *report };
+
+    return fill_without_suns(&j, rest, maps, error);
+}
+
+static pe_status bake_hemispheres(job *j, const pe_env *env, pe_maps *maps, pe_error *error)
+{
+    pe_env *rest;
+    pe_status status = pe_suns_draw_out(env, j->fine, &maps->info.surface, &maps->suns, &rest, error);
+
+    if (status != PE_OK)
+        return status;
+    status = fill_without_suns(j, rest, maps, error);
     pe_env_free(rest);
-    if (status == PE_OK)
-        status = pe_maps_finish(maps, j->baker->options.threads, error);
     return status;
 }
 
@@ -218,7 +227,8 @@ static pe_status fill_maps(job *j, const pe_env *env, pe_error *error)
         break;
     case PE_METHOD_LAYERS:
     case PE_METHOD_VOXELS:
-        break; /* pe_multiscale_bake */
+    case PE_METHOD_GRADES:
+        break; /* pe_multiscale_bake, pe_baker_bake_grades */
     }
     return status == PE_OK ? record_errors(j, env, error) : status;
 }
@@ -255,13 +265,6 @@ static pe_status fill_maps_from_shrunk(job *j, pe_error *error)
 
 /* ---- what does not depend on the environment ---- */
 
-static pe_accuracy choose_accuracy(pe_accuracy asked, int width, int height)
-{
-    if (asked != PE_ACCURACY_AUTO)
-        return asked;
-    return (size_t)width * (size_t)height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
-}
-
 static void choose_alphas(pe_maps_info *info)
 {
     pe_ndf *ndf = &info->surface.ndf;
@@ -295,7 +298,7 @@ static pe_status choose_info(const pe_bake_options *options, double aim, int wid
                             .ndf_name = "",
                             .source_width = width,
                             .source_height = height,
-                            .accuracy = choose_accuracy(options->accuracy, width, height),
+                            .accuracy = pe_choose_accuracy(options->accuracy, width, height),
                             .error_wanted = pe_wanted_error(options) };
     choose_alphas(info);
     status = pe_surface_check(&info->surface, error);
@@ -361,8 +364,10 @@ static pe_status prepare(pe_baker *b, double aim, int width, int height, pe_erro
 {
     pe_status status = check_error(b->options.error, error);
 
-    if (status == PE_OK && pe_method_has_roughness(b->options.method))
+    if (status == PE_OK && pe_method_has_lambda(b->options.method))
         return prepare_multiscale(b, aim, width, height, error);
+    if (status == PE_OK && b->options.method == PE_METHOD_GRADES)
+        return pe_baker_prepare_grades(b, aim, width, height, error);
     if (status == PE_OK)
         status = choose_info(&b->options, aim, width, height, &b->info, error);
     if (status != PE_OK)
@@ -403,6 +408,7 @@ void pe_baker_free(pe_baker *b)
     if (!b)
         return;
     pe_multiscale_free(b->multiscale);
+    pe_baker_free_grades(b);
     pe_kernel_free(b->kernel);
     pe_lobe_free(b->lobe);
     free(b);
@@ -433,6 +439,8 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
 
     if (status == PE_OK && b->multiscale)
         return pe_multiscale_bake(b->multiscale, env, known, out, error);
+    if (status == PE_OK && b->grades)
+        return pe_baker_bake_grades(b, env, known, out, error);
     info.source_name = env->name;
     if (status == PE_OK)
         status = pe_maps_create(&info, &j.maps, error);
@@ -472,7 +480,7 @@ static pe_status bake_once(const pe_env *env, const pe_bake_options *options, do
 
 static int is_as_large(const pe_maps *a, const pe_maps *b)
 {
-    return a->info.images == b->info.images && a->info.width == b->info.width && a->info.height == b->info.height;
+    return pe_maps_values(a) == pe_maps_values(b);
 }
 
 /* A bake that may not be the last: each is told of as half of what is left. */
@@ -522,7 +530,7 @@ static pe_status bake_for_error(const pe_env *env, const pe_bake_options *option
 pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **maps, pe_error *error)
 {
     int has_lookups = options->method == PE_METHOD_DEFAULT || options->method == PE_METHOD_HEMISPHERES ||
-                      options->method == PE_METHOD_LAYERS;
+                      options->method == PE_METHOD_LAYERS || options->method == PE_METHOD_GRADES;
 
     if (options->error > 0 && has_lookups)
         return bake_for_error(env, options, maps, error);

@@ -14,7 +14,8 @@ struct pe_baker {
     pe_maps_info hemispheres; /* those that are filtered: the same, or what lat-long maps are looked up in */
     pe_lobe *lobe;
     pe_kernel *kernel;         /* NULL: they are filtered light by light */
-    pe_multiscale *multiscale; /* of maps of many roughnesses, and nothing else then; NULL for others */
+    pe_multiscale *multiscale; /* of layers and voxels, and nothing else then; NULL for others */
+    pe_baker **grades;         /* of info.grades, which have them and nothing else; NULL for others */
 };
 
 /* A part of a bake, of the whole that the caller is told of. */
@@ -28,6 +29,19 @@ pe_report pe_stage_begin(pe_stage *stage, double share);
 
 /* *shrunk is env with as few texels as the baker's fast maps need, or NULL, where that is env itself. */
 pe_status pe_baker_shrink(const pe_baker *baker, const pe_env *env, pe_env **shrunk, pe_error *error);
+
+/* Fills and finishes maps of hemispheres with the lights of an environment whose suns are drawn out. */
+pe_status pe_baker_fill(const pe_baker *baker, const pe_env *rest, pe_report *report, pe_maps *maps, pe_error *error);
+
+/* ---- grades ---- */
+
+/* Decides how many there are and makes a baker for each. */
+pe_status pe_baker_prepare_grades(pe_baker *baker, double aim, int width, int height, pe_error *error);
+void pe_baker_free_grades(pe_baker *baker);
+
+/* As pe_baker_bake. */
+pe_status pe_baker_bake_grades(const pe_baker *baker, const pe_env *env, const pe_bake_errors *known, pe_maps **out,
+                               pe_error *error);
 
 /* Is env of the baker's size? */
 pe_status pe_baker_check_size(const pe_baker *baker, const pe_env *env, pe_error *error);

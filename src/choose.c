@@ -34,6 +34,16 @@ double pe_wanted_error(const pe_bake_options *options)
     return options->quality == PE_QUALITY_HIGH ? 0.0005 : 0.002;
 }
 
+/* Exact costs (lights x texels): beyond this many lights AUTO becomes fast. */
+#define AUTO_EXACT_TEXELS_MAX (128 * 64)
+
+pe_accuracy pe_choose_accuracy(pe_accuracy asked, int width, int height)
+{
+    if (asked != PE_ACCURACY_AUTO)
+        return asked;
+    return (size_t)width * (size_t)height <= AUTO_EXACT_TEXELS_MAX ? PE_ACCURACY_EXACT : PE_ACCURACY_FAST;
+}
+
 /* Texels along one axis for a pitch, on the unit disc, of `pitch` times alpha. */
 static int side_of(double alpha, double pitch, int most)
 {
@@ -118,9 +128,14 @@ static void fit_poles(const pe_maps_info *info, plan *p, double budget)
     p->height = info->height ? info->height : (int)fmax(p->height * scale, PE_DISC_SIDE_MIN);
 }
 
-void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_info *info)
+/* An error that is asked for may take what it takes, within the larger budget. */
+static double budget_for(const pe_bake_options *options)
 {
-    double budget = budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
+    return budget_of(options->error > 0 ? PE_QUALITY_HIGH : options->quality);
+}
+
+static plan best_plan(const pe_maps_info *info, double aim, double budget)
+{
     int given = pe_geodesic_frequency(info->normals);
     plan best = make_plan(info, given ? given : 2, PITCH_MAX);
 
@@ -132,13 +147,85 @@ void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_i
             if (is_better(&p, &best, aim, budget))
                 best = p;
         }
-    if (!info->normals)
-        info->normals = 10 * best.frequency * best.frequency + 2;
+    return best;
+}
+
+static void take_plan(const plan *p, pe_maps_info *info)
+{
+    info->normals = 10 * p->frequency * p->frequency + 2;
+    info->width = p->width;
+    info->height = p->height;
+    info->pole_angles = p->pole_angles;
+    info->pole_cosine = p->pole_cosine;
+}
+
+void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_info *info)
+{
+    double budget = budget_for(options);
+    int given = info->normals;
+    plan best = best_plan(info, aim, budget);
+
     fit_poles(info, &best, budget);
-    info->width = best.width;
-    info->height = best.height;
-    info->pole_angles = best.pole_angles;
-    info->pole_cosine = best.pole_cosine;
+    take_plan(&best, info);
+    info->normals = given ? given : info->normals;
+}
+
+/* ---- grades ---- */
+
+/* What lies between two grades is off by GRADES_ERROR with one for each doubling of alpha, which meets it with the
+ * fourth power; fitted to photographs, as the rest. */
+#define GRADES_ERROR 0.045
+#define GRADES_POWER 4.0
+
+/* A smooth grade takes more memory for the same error.  Where all together have the least, this one's goes with this
+ * power of alpha. */
+#define AIM_POWER (-0.5)
+
+static int count_grades(const pe_maps_info *info, double aim)
+{
+    double octaves = log2(info->alpha_max / info->surface.ndf.alpha_x);
+    double count = ceil(octaves * pow(GRADES_ERROR / aim, 1 / GRADES_POWER)) + 1;
+
+    return (int)fmin(fmax(count, PE_GRADES_MIN), PE_GRADES_MAX);
+}
+
+/* Returns the bytes of all. */
+static double plan_grades(const pe_bake_options *options, double aim, pe_maps_info *info, pe_maps_info *each)
+{
+    double bytes = 0;
+
+    info->grades = options->layers ? options->layers : count_grades(info, aim);
+    for (int k = 0; k < info->grades; k++) {
+        double alpha = pe_grades_alpha(info, k), middle = sqrt(info->surface.ndf.alpha_x * info->alpha_max);
+        plan best;
+
+        each[k] = *info;
+        each[k].surface.ndf = pe_grades_ndf(info, alpha);
+        best = best_plan(&each[k], aim * pow(alpha / middle, AIM_POWER), INFINITY);
+        take_plan(&best, &each[k]);
+        bytes += best.bytes;
+    }
+    return bytes;
+}
+
+#define BISECTIONS 12
+#define AIM_MAX 2.0
+
+void pe_choose_grades(const pe_bake_options *options, double aim, pe_maps_info *info, pe_maps_info *each)
+{
+    double budget = budget_for(options), most = fmax(AIM_MAX, 2 * aim), least = aim;
+
+    if (plan_grades(options, aim, info, each) <= budget)
+        return;
+    for (int k = 0; k < BISECTIONS; k++) {
+        double middle = sqrt(least * most);
+
+        if (plan_grades(options, middle, info, each) <= budget)
+            most = middle;
+        else
+            least = middle;
+    }
+    plan_grades(options, most, info, each);
 }
 
 void pe_choose_fine_size(const pe_ndf *ndf, int *width, int *height)

@@ -147,3 +147,21 @@ double pe_denominator_farthest(const pe_denominator *denominator)
 {
     return denominator->farthest;
 }
+
+void pe_denominators_add(pe_denominators *d, const pe_denominator *denominator, double share)
+{
+    if (!denominator)
+        return;
+    d->of[d->count] = denominator;
+    d->shares[d->count++] = share;
+    d->farthest = fmax(d->farthest, denominator->farthest);
+}
+
+double pe_denominators_at(const pe_denominators *d, const double o[3])
+{
+    double sum = 0;
+
+    for (int k = 0; k < d->count; k++)
+        sum += d->shares[k] * pe_denominator_at(d->of[k], o);
+    return sum;
+}

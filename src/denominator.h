@@ -21,4 +21,16 @@ double pe_denominator_of(const pe_ndf *ndf, const double o[3]);
 /* 1 / cos^2(theta_h) of the farthest half vectors that count; may be INFINITY. */
 double pe_denominator_farthest(const pe_denominator *denominator);
 
+/* What suns are divided by: W(o) of one lobe, or of a lobe between up to four others, whose shares add up to 1.  Zeros
+ * are none. */
+typedef struct pe_denominators {
+    int count;
+    const pe_denominator *of[4];
+    double shares[4], farthest; /* the farthest of all */
+} pe_denominators;
+
+/* Of a surface that needs none, NULL. */
+void pe_denominators_add(pe_denominators *denominators, const pe_denominator *denominator, double share);
+double pe_denominators_at(const pe_denominators *denominators, const double o[3]);
+
 #endif

@@ -13,6 +13,7 @@
 #define FRAMES 12            /* normals looked at; of a baseline map, where each texel has its own, texels */
 #define POINTS_PER_FRAME 128 /* texels for each */
 #define LOOKUP_FRAMES 48     /* normals looked at for lookups: few would miss the lamps that make most of the error */
+#define TRIALS_MAX PE_ESTIMATE_FRAMES
 #define VIEWERS_PER_FRAME 128
 #define COSINE_MIN 0.15
 #define LIMIT 20.0 /* exp(-20) is 2e-9: what is beyond changes nothing that is shown */
@@ -23,8 +24,9 @@ typedef struct trial {
     const pe_lobe *lobe;
     const pe_maps *maps;
     const pe_head_on *head_on; /* NULL for maps of representative normals */
-    int index;
-    double share; /* of the whole, that each of its views stands for */
+    int index, count;          /* of so many normals */
+    double roughness;          /* of maps of grades */
+    double share;              /* of the whole, that each of its views stands for */
     double error2, norm2;
     int failed;
 } trial;
@@ -94,7 +96,9 @@ static void try_texels(trial *t, int image, const pe_frame *frame, const pe_ligh
 static void try_lookup(trial *t, const pe_frame *frame, const pe_lights *lights, const double local[3])
 {
     const float o[1][3] = { { (float)local[0], (float)local[1], (float)local[2] } };
-    pe_point point = { .n = { frame->n[0], frame->n[1], frame->n[2] }, .direction = frame->t };
+    pe_point point = { .n = { frame->n[0], frame->n[1], frame->n[2] },
+                       .direction = frame->t,
+                       .roughness = t->roughness };
     double shown[3];
 
     if (!(local[2] > COSINE_MIN))
@@ -155,16 +159,19 @@ static void try_normal(trial *t, pe_lights *lights)
 /* About the two normals along the brush, tangents turn fast, and the maps of an anisotropic lobe differ most: a quarter
  * of the frames lie there, and count by their area. */
 #define CAP_COSINE 0.95
-#define CAP_FRAMES 12
+
+static int is_in_cap(const trial *t)
+{
+    return t->index < t->count / 4;
+}
 
 static void any_normal(const trial *t, double point[2], double n[3])
 {
     static const double origin[3] = { 0, 0, 1 };
-    int in_cap = t->index < CAP_FRAMES;
     double along = 2 * point[0] - 1, across, axis[3];
     pe_frame frame;
 
-    along = in_cap ? copysign(1 - fabs(along) * (1 - CAP_COSINE), along) : along * CAP_COSINE;
+    along = is_in_cap(t) ? copysign(1 - fabs(along) * (1 - CAP_COSINE), along) : along * CAP_COSINE;
     across = sqrt(1 - along * along);
     pe_normalize_any(t->maps->info.direction, axis);
     pe_frame_make(axis, origin, &frame);
@@ -175,12 +182,12 @@ static void any_normal(const trial *t, double point[2], double n[3])
 /* Any normal: evenly over the sphere. */
 static void try_any_normal(trial *t, pe_lights *lights)
 {
-    int in_cap = t->index < CAP_FRAMES;
+    int cap = t->count / 4;
     double point[2], n[3];
     pe_frame frame;
 
-    t->share = in_cap ? (1 - CAP_COSINE) / CAP_FRAMES : CAP_COSINE / (LOOKUP_FRAMES - CAP_FRAMES);
-    pe_lattice_point(in_cap ? t->index : t->index - CAP_FRAMES, middle, point);
+    t->share = is_in_cap(t) ? (1 - CAP_COSINE) / cap : CAP_COSINE / (t->count - cap);
+    pe_lattice_point(is_in_cap(t) ? t->index : t->index - cap, middle, point);
     any_normal(t, point, n);
     if (t->maps->info.angles > 1)
         try_frame(t, n, (const double[3]){ n[1], n[2], n[0] }, &frame, lights); /* any brush will do, none is special */
@@ -244,30 +251,40 @@ typedef struct how {
     pe_report *report;
 } how;
 
-static pe_status run_trials(const trial *model, pe_task *run, int count, const how *h, double *estimate,
-                            pe_error *error)
+/* Runs `count` trials that are told apart and adds up what comes of them. */
+static pe_status run_all(trial *trials, int count, pe_task *run, const how *h, pe_estimate *sum, pe_error *error)
 {
-    trial trials[LOOKUP_FRAMES];
-    double error2 = 0, norm2 = 0;
-    pe_status status;
+    pe_status status = pe_parallel_for((size_t)count, h->threads, run, trials, h->report);
 
-    for (int k = 0; k < count; k++) {
-        trials[k] = *model;
-        trials[k].index = k;
-        trials[k].share = 1;
-    }
-    status = pe_parallel_for((size_t)count, h->threads, run, trials, h->report);
     if (status != PE_OK)
         return status;
     h->report->done += count;
     for (int k = 0; k < count; k++) {
         if (trials[k].failed)
             return pe_fail_memory(error, "the estimate of the error");
-        error2 += trials[k].error2;
-        norm2 += trials[k].norm2;
+        sum->error2 += trials[k].error2;
+        sum->norm2 += trials[k].norm2;
     }
-    *estimate = norm2 > 0 ? sqrt(error2 / norm2) : 0;
     return PE_OK;
+}
+
+static pe_status run_trials(const trial *model, pe_task *run, int count, const how *h, double *estimate,
+                            pe_error *error)
+{
+    trial trials[TRIALS_MAX];
+    pe_estimate sum = { 0, 0 };
+    pe_status status;
+
+    for (int k = 0; k < count; k++) {
+        trials[k] = *model;
+        trials[k].index = k;
+        trials[k].count = count;
+        trials[k].share = 1;
+    }
+    status = run_all(trials, count, run, h, &sum, error);
+    if (status == PE_OK)
+        *estimate = sum.norm2 > 0 ? sqrt(sum.error2 / sum.norm2) : 0;
+    return status;
 }
 
 static pe_status estimate_texels(const pe_cloud *cloud, pe_maps *maps, const pe_lobe *lobe, const how *h,
@@ -330,6 +347,85 @@ pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lo
 
         status = run_trials(&model, run_lookups, LOOKUP_FRAMES, &h, &maps->info.lookup_error, error);
     }
+    pe_cloud_free(&cloud);
+    return status;
+}
+
+pe_status pe_estimate_texels(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error)
+{
+    pe_report silent = { .total = FRAMES };
+    const how h = { threads, &silent };
+    pe_cloud cloud;
+    pe_status status = PE_OK;
+
+    if (maps->info.accuracy == PE_ACCURACY_EXACT)
+        return PE_OK;
+    status = pe_cloud_from_env(env, &cloud, error);
+    if (status != PE_OK)
+        return status;
+    status = estimate_texels(&cloud, maps, lobe, &h, error);
+    pe_cloud_free(&cloud);
+    return status;
+}
+
+/* ---- grades ---- */
+
+/* Roughnesses go through their range in another order than normals over the sphere: within the caps, and elsewhere. */
+#define STRIDE 7 /* has no divisor in common with the frames of either */
+
+static double place_of(const trial *t)
+{
+    int cap = t->count / 4, count = is_in_cap(t) ? cap : t->count - cap;
+    int k = is_in_cap(t) ? t->index : t->index - cap;
+
+    return (STRIDE * k % count + 0.5) / count * (t->maps->info.grades - 1);
+}
+
+/* Each has a lobe of its own. */
+static void run_rough_lookups(size_t index, void *data)
+{
+    trial *t = (trial *)data + index;
+    pe_surface surface;
+    pe_lobe *lobe;
+
+    pe_maps_surface(t->maps, t->roughness, &surface);
+    t->failed = pe_lobe_make(&surface, 1, &lobe, NULL) != PE_OK;
+    if (t->failed)
+        return;
+    t->lobe = lobe;
+    with_lights(t, try_any_normal);
+    pe_lobe_free(lobe);
+}
+
+static int choose_trials(const trial *model, int grade, trial *trials)
+{
+    int count = 0;
+
+    for (int k = 0; k < PE_ESTIMATE_FRAMES; k++) {
+        trial *t = &trials[count];
+
+        *t = *model;
+        t->index = k;
+        t->count = PE_ESTIMATE_FRAMES;
+        t->roughness = pe_grades_alpha(&t->maps->info, place_of(t));
+        count += lround(place_of(t)) == grade;
+    }
+    return count;
+}
+
+pe_status pe_estimate_grade(const pe_env *env, const pe_maps *maps, int grade, int threads, pe_report *report,
+                            pe_estimate *sum, pe_error *error)
+{
+    const how h = { threads, report };
+    trial trials[TRIALS_MAX + 1];
+    pe_cloud cloud;
+    pe_status status = pe_cloud_from_env(env, &cloud, error);
+    const trial model = { .cloud = &cloud, .maps = maps };
+
+    if (status != PE_OK)
+        return status;
+    place_suns(&maps->suns, &cloud);
+    status = run_all(trials, choose_trials(&model, grade, trials), run_rough_lookups, &h, sum, error);
     pe_cloud_free(&cloud);
     return status;
 }

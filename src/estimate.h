@@ -13,4 +13,19 @@
 pe_status pe_estimate_errors(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_report *report,
                              pe_error *error);
 
+/* error_estimate alone, of hemispheres without suns. */
+pe_status pe_estimate_texels(const pe_env *env, pe_maps *maps, const pe_lobe *lobe, int threads, pe_error *error);
+
+/* Sums of squares of what is looked up, off the truth and in truth. */
+typedef struct pe_estimate {
+    double error2, norm2;
+} pe_estimate;
+
+#define PE_ESTIMATE_FRAMES 96
+
+/* Of maps of grades: lookups for normals anywhere and of any roughness, evenly spread over their range, whose nearest
+ * grade is the given one.  The sums of all grades belong together.  The report counts to PE_ESTIMATE_FRAMES. */
+pe_status pe_estimate_grade(const pe_env *env, const pe_maps *maps, int grade, int threads, pe_report *report,
+                            pe_estimate *sum, pe_error *error);
+
 #endif

@@ -57,17 +57,22 @@ static pe_status check_direction(const double d[3], pe_error *error)
     return PE_OK;
 }
 
+static int have_angles(const pe_maps_info *info)
+{
+    return info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_GRADES;
+}
+
 static pe_status check_angles(const pe_maps_info *info, pe_error *error)
 {
     if (info->pole_angles &&
-        (info->method != PE_METHOD_HEMISPHERES || info->angles != 1 || info->pole_angles < PE_MAPS_ANGLES_MIN ||
+        (!have_angles(info) || info->angles != 1 || info->pole_angles < PE_MAPS_ANGLES_MIN ||
          info->pole_angles > PE_MAPS_ANGLES_MAX || !(info->pole_cosine > 0 && info->pole_cosine < 1)))
         return pe_fail(error, PE_ERROR_ARGUMENT,
                        "%d angles at normals within a cosine of %g of the brush direction are out of range",
                        info->pole_angles, info->pole_cosine);
     if (info->angles == 1)
         return PE_OK;
-    if (info->method != PE_METHOD_HEMISPHERES)
+    if (!have_angles(info))
         return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d: only hemispheres can have more than 1", info->angles);
     if (info->angles < PE_MAPS_ANGLES_MIN || info->angles > PE_MAPS_ANGLES_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d is out of range; give 1, or %d to %d", info->angles,
@@ -76,7 +81,7 @@ static pe_status check_angles(const pe_maps_info *info, pe_error *error)
 }
 
 /* An atlas has room for a few more hemispheres than there are. */
-static size_t stored_texels(const pe_maps_info *info)
+size_t pe_maps_stored_texels(const pe_maps_info *info)
 {
     size_t texels = (size_t)info->width * (size_t)info->height;
     pe_atlas atlas;
@@ -89,13 +94,13 @@ static size_t stored_texels(const pe_maps_info *info)
 
 static pe_status check_size(const pe_maps_info *info, pe_error *error)
 {
-    int least = info->method == PE_METHOD_HEMISPHERES ? PE_DISC_SIDE_MIN : 2;
+    int least = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_GRADES ? PE_DISC_SIDE_MIN : 2;
 
     if (info->width < least || info->height < least || info->width > PE_MAPS_SIDE_MAX ||
         info->height > PE_MAPS_SIDE_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "size %d x %d is out of range; each side lies between %d and %d",
                        info->width, info->height, least, PE_MAPS_SIDE_MAX);
-    if (stored_texels(info) > PE_MAPS_TEXELS_MAX)
+    if (info->method != PE_METHOD_GRADES && pe_maps_stored_texels(info) > PE_MAPS_TEXELS_MAX)
         return pe_fail(error, PE_ERROR_LIMIT,
                        "%d maps of %d x %d are more than can be held; make them fewer, or smaller than %zu texels each",
                        info->images, info->width, info->height, PE_MAPS_TEXELS_MAX / (size_t)info->images);
@@ -115,7 +120,8 @@ static pe_status count_hemispheres(pe_maps_info *info, pe_error *error)
 
 static pe_status count_images(pe_maps_info *info, pe_error *error)
 {
-    if (info->method != PE_METHOD_HEMISPHERES && info->method != PE_METHOD_REPRESENTATIVE)
+    if (info->method != PE_METHOD_HEMISPHERES && info->method != PE_METHOD_REPRESENTATIVE &&
+        info->method != PE_METHOD_GRADES)
         info->normals = 0;
     info->frequency = pe_geodesic_frequency(info->normals);
     switch (info->method) {
@@ -129,6 +135,7 @@ static pe_status count_images(pe_maps_info *info, pe_error *error)
         info->images = 1;
         break;
     case PE_METHOD_LAYERS:
+    case PE_METHOD_GRADES:
         break;
     case PE_METHOD_VOXELS:
         info->images = info->smoothness.size;
@@ -165,14 +172,17 @@ pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
 
     if (status != PE_OK)
         return status;
-    if (info->method < PE_METHOD_HEMISPHERES || info->method > PE_METHOD_VOXELS)
+    if (info->method < PE_METHOD_HEMISPHERES || info->method > PE_METHOD_GRADES)
         return pe_fail(error, PE_ERROR_ARGUMENT, "method %d is not known", (int)info->method);
     status = check_direction(info->direction, error);
     if (status == PE_OK)
         status = check_angles(info, error);
-    if (status == PE_OK && (info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_REPRESENTATIVE))
+    if (status == PE_OK && (info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_REPRESENTATIVE ||
+                            info->method == PE_METHOD_GRADES))
         status = check_normals(info->normals, error);
-    if (status == PE_OK && pe_method_has_roughness(info->method))
+    if (status == PE_OK && info->method == PE_METHOD_GRADES)
+        status = pe_grades_check(info, error);
+    if (status == PE_OK && pe_method_has_lambda(info->method))
         status = check_roughness(info, error);
     if (status != PE_OK)
         return status;
@@ -187,18 +197,19 @@ static pe_status allocate(pe_maps *maps, const char *source_name, const char *nd
     maps->disc = (pe_disc){ maps->info.width, maps->info.height };
     if (maps->info.method == PE_METHOD_REPRESENTATIVE || maps->info.method == PE_METHOD_BASELINE)
         status = pe_grid_make(maps->info.width, maps->info.height, &maps->grid, error);
-    if (status == PE_OK && maps->info.frequency)
+    if (status == PE_OK && maps->info.frequency && maps->info.method != PE_METHOD_GRADES)
         status = pe_geodesic_make(maps->info.frequency, &maps->geodesic, error);
     if (status == PE_OK && maps->info.method == PE_METHOD_LAYERS)
         status = pe_layers_make(maps, error);
-    if (status == PE_OK && maps->info.pole_angles)
+    if (status == PE_OK && maps->geodesic && maps->info.pole_angles)
         status = pe_poles_make(maps->geodesic, maps->info.direction, maps->info.pole_cosine, &maps->poles, error);
     if (status != PE_OK)
         return status;
     maps->source_name = strdup(source_name ? source_name : "");
     maps->ndf_name = strdup(ndf_name ? ndf_name : "");
-    maps->rgb = calloc(pe_maps_values(maps), sizeof *maps->rgb);
-    if (!maps->source_name || !maps->ndf_name || !maps->rgb)
+    if (maps->info.method != PE_METHOD_GRADES)
+        maps->rgb = calloc(pe_maps_values(maps), sizeof *maps->rgb);
+    if (!maps->source_name || !maps->ndf_name || (!maps->rgb && maps->info.method != PE_METHOD_GRADES))
         return pe_fail(error, PE_ERROR_MEMORY, "not enough memory for %d maps of %d x %d", maps->info.images,
                        maps->info.width, maps->info.height);
     maps->info.source_name = maps->source_name;
@@ -236,6 +247,9 @@ void pe_maps_free(pe_maps *maps)
     pe_grid_free(&maps->grid);
     pe_denominator_free(maps->denominator);
     pe_layers_free(maps);
+    for (int k = 0; maps->grades && k < maps->info.grades; k++)
+        pe_maps_free(maps->grades[k]);
+    free(maps->grades);
     pe_poles_free(&maps->poles);
     free(maps->source_name);
     free(maps->ndf_name);
@@ -252,16 +266,18 @@ const pe_maps_info *pe_maps_get_info(const pe_maps *maps)
 
 int pe_maps_have_roughness(const pe_maps *maps)
 {
-    return pe_method_has_roughness(maps->info.method);
+    return pe_method_has_lambda(maps->info.method) || maps->info.method == PE_METHOD_GRADES;
 }
 
 const float *pe_maps_image(const pe_maps *maps, int k)
 {
+    maps = pe_grades_find(maps, &k);
     return maps->rgb + (maps->layers ? maps->layers[k].offset : (size_t)k * pe_maps_image_values(maps));
 }
 
 void pe_maps_image_size(const pe_maps *maps, int k, int *width, int *height)
 {
+    maps = pe_grades_find(maps, &k);
     *width = maps->layers ? maps->layers[k].width : maps->info.width;
     *height = maps->layers ? maps->layers[k].height : maps->info.height;
 }
@@ -274,7 +290,12 @@ double pe_maps_image_exponent(const pe_maps *maps, int k)
 size_t pe_maps_values(const pe_maps *maps)
 {
     const pe_layer *last = maps->layers ? &maps->layers[maps->info.images - 1] : NULL;
+    size_t values = 0;
 
+    for (int k = 0; k < maps->info.grades; k++)
+        values += pe_maps_values(maps->grades[k]);
+    if (values)
+        return values;
     return last ? last->offset + 3 * (size_t)last->width * (size_t)last->height
                 : (size_t)maps->info.images * pe_maps_image_values(maps);
 }
@@ -282,8 +303,10 @@ size_t pe_maps_values(const pe_maps *maps)
 void pe_maps_normal(const pe_maps *maps, int k, double n[3])
 {
     static const double up[3] = { 0, 1, 0 };
-    int vertex = 2 * k, angle;
+    int vertex, angle;
 
+    maps = pe_grades_find(maps, &k);
+    vertex = 2 * k;
     if (maps->info.method == PE_METHOD_HEMISPHERES)
         pe_maps_place_of(maps, k, &vertex, &angle);
     memcpy(n, maps->geodesic ? pe_geodesic_vertex(maps->geodesic, vertex) : up, 3 * sizeof *n);
@@ -365,6 +388,8 @@ pe_status pe_maps_finish(pe_maps *maps, int threads, pe_error *error)
 
     if (maps->info.method == PE_METHOD_LAYERS)
         return pe_layers_finish(maps, threads, error);
+    if (maps->info.method == PE_METHOD_GRADES)
+        return pe_grades_finish(maps, threads, error);
     if (maps->info.method != PE_METHOD_HEMISPHERES)
         return PE_OK;
     maps->info.suns = maps->suns.count;

@@ -11,8 +11,8 @@
 #include "suns.h"
 #include "vector.h"
 
-#define PE_MAPS_FORMAT_VERSION 3
-#define PE_MAPS_FORMAT_VERSION_MIN 2 /* which has no layers and no voxels */
+#define PE_MAPS_FORMAT_VERSION 4
+#define PE_MAPS_FORMAT_VERSION_MIN 2 /* which has no layers and no voxels; 3 has no grades */
 #define PE_MAPS_SIDE_MAX 8192
 #define PE_MAPS_ANGLES_MIN 4 /* unless 1 */
 #define PE_MAPS_ANGLES_MAX 64
@@ -45,12 +45,14 @@ struct pe_maps {
     pe_denominator *denominator;        /* NULL where there are no suns */
 
     pe_layer *layers; /* as many as there are images */
+
+    pe_maps **grades; /* info.grades hemispheres: none of the above is used but the suns, which are theirs */
 };
 
 /* As files and people call them: by pe_method, whose default has none, and by pe_ndf_kind. */
 #define PE_METHOD_NAMES \
     { \
-        "", "hemispheres", "representative", "baseline", "layers", "voxels" \
+        "", "hemispheres", "representative", "baseline", "layers", "voxels", "grades" \
     }
 #define PE_NDF_NAMES \
     { \
@@ -59,8 +61,8 @@ struct pe_maps {
 
 /* ---- layers ---- */
 
-/* Does info's method hold many roughnesses? */
-static inline int pe_method_has_roughness(pe_method method)
+/* Does info's method hold Phong's lobe of many roughnesses? */
+static inline int pe_method_has_lambda(pe_method method)
 {
     return method == PE_METHOD_LAYERS || method == PE_METHOD_VOXELS;
 }
@@ -75,8 +77,31 @@ pe_status pe_layers_make(pe_maps *maps, pe_error *error);
 pe_status pe_layers_finish(pe_maps *maps, int threads, pe_error *error);
 void pe_layers_free(pe_maps *maps);
 
-/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images; of layers
- * images is given. */
+/* ---- grades ---- */
+
+#define PE_GRADES_MIN 4
+#define PE_GRADES_MAX 32
+
+/* The distribution of a roughness, alpha_x, of grades; what is out of range is as the nearer end. */
+pe_ndf pe_grades_ndf(const pe_maps_info *info, double alpha);
+
+/* Where that lies among the grades, from 0 to the last; and the roughness at a place. */
+double pe_grades_place(const pe_maps_info *info, double alpha);
+double pe_grades_alpha(const pe_maps_info *info, double place);
+
+pe_status pe_grades_check(const pe_maps_info *info, pe_error *error);
+
+/* Maps of grades, all of them allocated; `each` says of every grade its normals, size and angles at the poles. */
+pe_status pe_grades_create(const pe_maps_info *info, const pe_maps_info *each, pe_maps **out, pe_error *error);
+
+/* Those that are finished already stay as they are. */
+pe_status pe_grades_finish(pe_maps *maps, int threads, pe_error *error);
+
+/* The grade that holds image *k, which becomes its number there; of maps without grades, themselves. */
+const pe_maps *pe_grades_find(const pe_maps *maps, int *k);
+
+/* Checks info's method, surface, direction, normals, angles and size; completes frequency and images; of layers and
+ * grades images is given. */
 pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error);
 
 /* Does that and allocates the images. */
@@ -133,10 +158,14 @@ static inline size_t pe_maps_image_values(const pe_maps *maps)
     return 3 * (size_t)maps->info.width * (size_t)maps->info.height;
 }
 
+/* Of maps without grades. */
 static inline float *pe_maps_image_to_fill(pe_maps *maps, int k)
 {
     return maps->rgb + (maps->layers ? maps->layers[k].offset : (size_t)k * pe_maps_image_values(maps));
 }
+
+/* Texels of all images, as a file holds them. */
+size_t pe_maps_stored_texels(const pe_maps_info *info);
 
 /* Floats of all images. */
 size_t pe_maps_values(const pe_maps *maps);

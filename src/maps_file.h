@@ -4,13 +4,16 @@
  * row by row: an atlas.  Lat-long maps: part "normal.00" holds the pair n_0, -n_0 and so on, with attribute
  * prefenv:normal; a baseline file has the one part "baseline".  Layers: part "layer.00" is the smoothest, each lat-long
  * and with attribute prefenv:exponent.  Voxels: one part "voxels", the slices of the cube side by side, row by row.
+ * Grades: those of hemispheres for each, "grade.00.angle.00" and so on, the smoothest first.
  *
  * Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
  * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
  * :lookupError, :poleAngles, :poleCosine, :suns, :turn (the degrees that the angles divide), and for each sun
  * :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold
- * and :lost. */
+ * and :lost; of grades :grades, :alphaMax, :lookupError, :angles, :suns, :turn, the suns, and, in each grade's first
+ * part, :grade.alphaX, :grade.alphaY, :grade.normals, :grade.width, :grade.height, :grade.poleAngles,
+ * :grade.poleCosine and :grade.lookupError. */
 #ifndef PE_MAPS_FILE_H
 #define PE_MAPS_FILE_H
 

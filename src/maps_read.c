@@ -11,6 +11,7 @@
 /* Where attributes are read from, and whom to tell if one is missing. */
 typedef struct header {
     const pe_exr_file *file;
+    int part;
     const char *name;
     pe_error *error;
 } header;
@@ -25,7 +26,7 @@ static pe_status get_integer(const header *from, const char *name, int *value)
 {
     pe_attribute a = pe_attribute_integer(name, 0);
 
-    if (!pe_exr_get_attribute(from->file, 0, &a))
+    if (!pe_exr_get_attribute(from->file, from->part, &a))
         return missing(from, name);
     *value = a.integer;
     return PE_OK;
@@ -35,7 +36,7 @@ static pe_status get_number(const header *from, const char *name, double *value)
 {
     pe_attribute a = pe_attribute_number(name, 0);
 
-    if (!pe_exr_get_attribute(from->file, 0, &a))
+    if (!pe_exr_get_attribute(from->file, from->part, &a))
         return missing(from, name);
     if (!isfinite(a.number))
         return pe_fail(from->error, PE_ERROR_FORMAT, "%s: attribute %s is not a finite number", from->name, name);
@@ -72,7 +73,7 @@ static pe_status get_choice(const header *from, const char *name, const char *co
     pe_attribute a = pe_attribute_string(name, NULL);
     char shown[SHOWN_BYTES];
 
-    if (!pe_exr_get_attribute(from->file, 0, &a))
+    if (!pe_exr_get_attribute(from->file, from->part, &a))
         return missing(from, name);
     for (*value = 0; *value < count; ++*value)
         if (strcmp(a.string, names[*value]) == 0)
@@ -106,13 +107,23 @@ static pe_status check_turn(const header *from, const pe_maps_info *info)
     int turn = 180;
     pe_attribute a = pe_attribute_integer("prefenv:turn", 0);
 
-    if (pe_exr_get_attribute(from->file, 0, &a))
+    if (pe_exr_get_attribute(from->file, from->part, &a))
         turn = a.integer;
     if (info->angles == 1 || turn == pe_maps_degrees(info))
         return PE_OK;
     return pe_fail(from->error, PE_ERROR_FORMAT,
                    "%s: its %d angles divide %d degrees where %d are read here; bake it again", from->name,
                    info->angles, turn, pe_maps_degrees(info));
+}
+
+static pe_status check_suns(const header *from, const pe_maps_info *info)
+{
+    if (info->suns && !pe_suns_possible(&info->surface))
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has suns, which maps of its ndf cannot have", from->name);
+    if (info->suns < 0 || info->suns > PE_SUNS_MAX)
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:suns %d is out of range; at most %d can be",
+                       from->name, info->suns, PE_SUNS_MAX);
+    return PE_OK;
 }
 
 /* What hemispheres have besides. */
@@ -134,11 +145,43 @@ static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
         AND_THEN(get_number(from, "prefenv:poleCosine", &info->pole_cosine))
     AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
     AND_THEN(check_turn(from, info))
-    if (status == PE_OK && info->suns && !pe_suns_possible(&info->surface))
-        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: has suns, which maps of its ndf cannot have", from->name);
-    if (status == PE_OK && (info->suns < 0 || info->suns > PE_SUNS_MAX))
-        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:suns %d is out of range; at most %d can be",
-                       from->name, info->suns, PE_SUNS_MAX);
+    AND_THEN(check_suns(from, info))
+    return status;
+}
+
+/* What grades have in common besides; how many parts there have to be hangs on two numbers, which are looked at
+ * before. */
+static pe_status read_grades_info(const header *from, pe_maps_info *info)
+{
+    pe_status status = PE_OK;
+
+    if (info->method != PE_METHOD_GRADES)
+        return PE_OK;
+    AND_THEN(get_integer(from, "prefenv:grades", &info->grades))
+    AND_THEN(get_number(from, "prefenv:alphaMax", &info->alpha_max))
+    AND_THEN(get_number(from, "prefenv:lookupError", &info->lookup_error))
+    AND_THEN(get_integer(from, "prefenv:angles", &info->angles))
+    AND_THEN(get_integer(from, "prefenv:suns", &info->suns))
+    AND_THEN(check_turn(from, info))
+    AND_THEN(check_suns(from, info))
+    if (status == PE_OK && (info->grades < PE_GRADES_MIN || info->grades > PE_GRADES_MAX || info->angles < 1 ||
+                            info->angles > PE_MAPS_ANGLES_MAX))
+        return pe_fail(from->error, PE_ERROR_FORMAT, "%s: %d grades of %d angles are out of range", from->name,
+                       info->grades, info->angles);
+    return status;
+}
+
+/* What each of them has. */
+static pe_status read_grade_info(const header *from, pe_maps_info *grade)
+{
+    pe_status status = PE_OK;
+
+    AND_THEN(get_integer(from, "prefenv:grade.normals", &grade->normals))
+    AND_THEN(get_integer(from, "prefenv:grade.width", &grade->width))
+    AND_THEN(get_integer(from, "prefenv:grade.height", &grade->height))
+    AND_THEN(get_integer(from, "prefenv:grade.poleAngles", &grade->pole_angles))
+    AND_THEN(get_number(from, "prefenv:grade.poleCosine", &grade->pole_cosine))
+    AND_THEN(get_number(from, "prefenv:grade.lookupError", &grade->lookup_error))
     return status;
 }
 
@@ -148,7 +191,7 @@ static pe_status read_roughness_info(const header *from, pe_maps_info *info)
     int lost = 0;
     pe_status status = PE_OK;
 
-    if (!pe_method_has_roughness(info->method))
+    if (!pe_method_has_lambda(info->method))
         return PE_OK;
     AND_THEN(get_integer(from, "prefenv:size", &info->smoothness.size))
     AND_THEN(get_number(from, "prefenv:window", &info->smoothness.window))
@@ -166,7 +209,7 @@ static pe_status read_roughness_info(const header *from, pe_maps_info *info)
 static pe_status read_sun(const header *from, int k, pe_suns *suns)
 {
     char name[PE_SUN_NAME_MAX];
-    double direction[3], power[3];
+    double direction[3] = { 0 }, power[3] = { 0 };
     pe_status status;
 
     pe_maps_name_sun(k, "direction", name);
@@ -223,6 +266,7 @@ static pe_status read_info(const header *from, pe_maps_info *info)
         return missing(from, "prefenv:method");
     status = read_hemispheres_info(from, info);
     AND_THEN(read_roughness_info(from, info))
+    AND_THEN(read_grades_info(from, info))
     return status;
 }
 
@@ -237,6 +281,8 @@ static int expected_parts(const pe_maps_info *info)
         return info->normals / 2;
     case PE_METHOD_LAYERS:
         return info->images;
+    case PE_METHOD_GRADES:
+        return info->grades * info->angles;
     case PE_METHOD_DEFAULT:
     case PE_METHOD_HEMISPHERES:
         break;
@@ -254,13 +300,14 @@ static pe_status check_part_count(const header *from, const pe_maps_info *info)
                    parts, info->normals, info->angles, expected);
 }
 
-/* Parts of one size, but for layers, whose sizes are known; of lat-long maps, it is theirs and goes into info. */
+/* Parts of one size, but for layers and grades, whose sizes are known; of lat-long maps it is theirs and goes into
+ * info. */
 static pe_status check_parts(const header *from, pe_maps_info *info)
 {
     long long first_width, first_height;
     pe_status status = check_part_count(from, info);
 
-    if (status != PE_OK || info->method == PE_METHOD_LAYERS)
+    if (status != PE_OK || info->method == PE_METHOD_LAYERS || info->method == PE_METHOD_GRADES)
         return status;
     pe_exr_part_size(from->file, 0, &first_width, &first_height);
     for (int k = 1; k < pe_exr_part_count(from->file); k++) {
@@ -337,34 +384,45 @@ static pe_status read_latlong(const header *from, pe_maps *maps)
     return status;
 }
 
-static pe_status check_atlas(const header *from, const pe_atlas *atlas)
+static pe_status check_atlas(const header *from, int part, const pe_atlas *atlas)
 {
     long long width, height;
 
-    pe_exr_part_size(from->file, 0, &width, &height);
+    pe_exr_part_size(from->file, part, &width, &height);
     if (width == atlas->width && height == atlas->height)
         return PE_OK;
-    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: is %lld x %lld where %d maps of %d x %d need %d x %d", from->name,
-                   width, height, atlas->count, atlas->tile_width, atlas->tile_height, atlas->width, atlas->height);
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: part %d is %lld x %lld where %d maps of %d x %d need %d x %d",
+                   from->name, part, width, height, atlas->count, atlas->tile_width, atlas->tile_height, atlas->width,
+                   atlas->height);
 }
 
-static pe_status read_atlases(const header *from, pe_maps *maps)
+static pe_status read_suns(const header *from, pe_maps *maps)
+{
+    pe_status status = PE_OK;
+
+    for (int k = 0; status == PE_OK && k < maps->info.suns; k++)
+        status = read_sun(from, k, &maps->suns);
+    return status;
+}
+
+/* From the part `first` on. */
+static pe_status read_atlases(const header *from, int first, pe_maps *maps)
 {
     pe_atlas atlas = pe_maps_atlas(&maps->info);
     size_t values = pe_atlas_values(&atlas);
     int tiles = maps->info.images / maps->info.angles;
     float *picture;
-    pe_status status = check_atlas(from, &atlas);
+    pe_status status = PE_OK;
 
-    for (int k = 0; status == PE_OK && k < maps->info.suns; k++)
-        status = read_sun(from, k, &maps->suns);
+    for (int angle = 0; status == PE_OK && angle < maps->info.angles; angle++)
+        status = check_atlas(from, first + angle, &atlas);
     if (status != PE_OK)
         return status;
     picture = malloc(values * sizeof *picture);
     if (!picture)
         return pe_fail_memory(from->error, "an atlas of maps");
     for (int angle = 0; status == PE_OK && angle < maps->info.angles; angle++) {
-        status = read_part(from, angle, picture, values);
+        status = read_part(from, first + angle, picture, values);
         for (int k = 0; status == PE_OK && k < tiles; k++)
             pe_atlas_extract(&atlas, k, picture, pe_maps_image_to_fill(maps, k * maps->info.angles + angle));
     }
@@ -372,21 +430,54 @@ static pe_status read_atlases(const header *from, pe_maps *maps)
     return status;
 }
 
+static pe_status create_grades(const header *from, const pe_maps_info *info, pe_maps **maps, pe_error *inner)
+{
+    pe_maps_info each[PE_GRADES_MAX] = { { 0 } };
+    pe_status status = PE_OK;
+
+    for (int k = 0; k < info->grades && status == PE_OK; k++) {
+        const header its = { from->file, k * info->angles, from->name, from->error };
+
+        status = read_grade_info(&its, &each[k]);
+    }
+    return status == PE_OK ? pe_grades_create(info, each, maps, inner) : status;
+}
+
+/* The maps that the file says it holds, without their pictures. */
+static pe_status create(const header *from, const pe_maps_info *info, pe_maps **maps)
+{
+    pe_error inner = { PE_OK, "" };
+    pe_status status =
+        info->method == PE_METHOD_GRADES ? create_grades(from, info, maps, &inner) : pe_maps_create(info, maps, &inner);
+
+    if (inner.status == PE_OK)
+        return status;
+    return pe_fail(from->error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", from->name,
+                   inner.message);
+}
+
+static pe_status read_pictures(const header *from, pe_maps *maps)
+{
+    pe_status status = read_suns(from, maps);
+
+    for (int k = 0; k < maps->info.grades; k++)
+        AND_THEN(read_atlases(from, k * maps->info.angles, maps->grades[k]))
+    if (status != PE_OK || maps->grades)
+        return status;
+    return pe_maps_have_atlas(&maps->info) ? read_atlases(from, 0, maps) : read_latlong(from, maps);
+}
+
 static pe_status read_file(const header *from, pe_maps **out)
 {
     pe_maps_info info;
     pe_maps *maps = NULL;
-    pe_error inner = { PE_OK, "" };
     pe_status status = read_info(from, &info);
 
     AND_THEN(check_parts(from, &info))
+    AND_THEN(create(from, &info, &maps))
     if (status != PE_OK)
         return status;
-    status = pe_maps_create(&info, &maps, &inner);
-    if (status != PE_OK)
-        return pe_fail(from->error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", from->name,
-                       inner.message);
-    status = pe_maps_have_atlas(&info) ? read_atlases(from, maps) : read_latlong(from, maps);
+    status = read_pictures(from, maps);
     AND_THEN(pe_maps_finish(maps, 0, from->error))
     maps->info.format_version = info.format_version;
     if (status == PE_OK)
@@ -398,7 +489,7 @@ static pe_status read_file(const header *from, pe_maps **out)
 
 pe_status pe_maps_read_memory(const void *bytes, size_t size, const char *name, pe_maps **maps, pe_error *error)
 {
-    header from = { NULL, name, error };
+    header from = { NULL, 0, name, error };
     pe_exr_file *file;
     pe_status status;
 

@@ -6,10 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PART_NAME_MAX 32
+#define PART_NAME_MAX 48
 #define ATTRIBUTES 17
 #define HEMISPHERE_ATTRIBUTES 8
 #define ROUGHNESS_ATTRIBUTES 7
+#define GRADES_ATTRIBUTES 6
+#define GRADE_ATTRIBUTES 8
 
 static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
 {
@@ -67,10 +69,40 @@ static void describe_roughness(const pe_maps_info *info, pe_attribute out[ROUGHN
     memcpy(out, all, sizeof all);
 }
 
+static void describe_grades(const pe_maps_info *info, pe_attribute out[GRADES_ATTRIBUTES])
+{
+    const pe_attribute all[GRADES_ATTRIBUTES] = {
+        pe_attribute_integer("prefenv:grades", info->grades),
+        pe_attribute_number("prefenv:alphaMax", info->alpha_max),
+        pe_attribute_number("prefenv:lookupError", info->lookup_error),
+        pe_attribute_integer("prefenv:angles", info->angles),
+        pe_attribute_integer("prefenv:suns", info->suns),
+        pe_attribute_integer("prefenv:turn", pe_maps_degrees(info)),
+    };
+
+    memcpy(out, all, sizeof all);
+}
+
+static void describe_grade(const pe_maps_info *info, pe_attribute out[GRADE_ATTRIBUTES])
+{
+    const pe_attribute all[GRADE_ATTRIBUTES] = {
+        pe_attribute_number("prefenv:grade.alphaX", info->surface.ndf.alpha_x),
+        pe_attribute_number("prefenv:grade.alphaY", info->surface.ndf.alpha_y),
+        pe_attribute_integer("prefenv:grade.normals", info->normals),
+        pe_attribute_integer("prefenv:grade.width", info->width),
+        pe_attribute_integer("prefenv:grade.height", info->height),
+        pe_attribute_integer("prefenv:grade.poleAngles", info->pole_angles),
+        pe_attribute_number("prefenv:grade.poleCosine", info->pole_cosine),
+        pe_attribute_number("prefenv:grade.lookupError", info->lookup_error),
+    };
+
+    memcpy(out, all, sizeof all);
+}
+
 /* Everything a part needs while it is being written. */
 typedef struct part_room {
     char name[PART_NAME_MAX];
-    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + ROUGHNESS_ATTRIBUTES + 2 * PE_SUNS_MAX];
+    pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + GRADE_ATTRIBUTES + 2 * PE_SUNS_MAX];
     char sun_names[2 * PE_SUNS_MAX][PE_SUN_NAME_MAX];
 } part_room;
 
@@ -87,16 +119,20 @@ static size_t describe_suns(const pe_suns *suns, part_room *room, pe_attribute *
 
 static int parts_of(const pe_maps_info *info)
 {
+    if (info->method == PE_METHOD_GRADES)
+        return info->grades * info->angles;
     return pe_maps_have_atlas(info) ? info->angles : info->images;
 }
 
 static void name_part(const pe_maps_info *info, int k, char name[PART_NAME_MAX])
 {
-    static const char *const names[] = { "", "angle", "normal", "baseline", "layer", "voxels" };
+    static const char *const names[] = { "", "angle", "normal", "baseline", "layer", "voxels", "" };
     int digits = snprintf(NULL, 0, "%d", parts_of(info) - 1);
 
     if (info->method == PE_METHOD_BASELINE || info->method == PE_METHOD_VOXELS)
         snprintf(name, PART_NAME_MAX, "%s", names[info->method]);
+    else if (info->method == PE_METHOD_GRADES)
+        snprintf(name, PART_NAME_MAX, "grade.%02d.angle.%02d", k / info->angles, k % info->angles);
     else
         snprintf(name, PART_NAME_MAX, "%s.%0*d", names[info->method], digits > 2 ? digits : 2, k);
 }
@@ -113,6 +149,10 @@ static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *
     }
     if (maps->info.method == PE_METHOD_LAYERS)
         room->attributes[count++] = pe_attribute_number("prefenv:exponent", pe_maps_image_exponent(maps, k));
+    if (maps->info.method == PE_METHOD_GRADES && k % maps->info.angles == 0) {
+        describe_grade(&maps->grades[k / maps->info.angles]->info, room->attributes + count);
+        count += GRADE_ATTRIBUTES;
+    }
     if (k == 0) {
         describe(&maps->info, room->attributes + count);
         count += ATTRIBUTES;
@@ -122,7 +162,12 @@ static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *
         count += HEMISPHERE_ATTRIBUTES;
         count += describe_suns(&maps->suns, room, room->attributes + count);
     }
-    if (k == 0 && pe_method_has_roughness(maps->info.method)) {
+    if (k == 0 && maps->info.method == PE_METHOD_GRADES) {
+        describe_grades(&maps->info, room->attributes + count);
+        count += GRADES_ATTRIBUTES;
+        count += describe_suns(&maps->suns, room, room->attributes + count);
+    }
+    if (k == 0 && pe_method_has_lambda(maps->info.method)) {
         describe_roughness(&maps->info, room->attributes + count);
         count += ROUGHNESS_ATTRIBUTES;
     }
@@ -134,14 +179,17 @@ static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *
 static pe_status check_half_range(const pe_maps *maps, const char *path, pe_error *error)
 {
     const float largest_half = 65504;
-    size_t values = pe_maps_values(maps);
+    size_t values = maps->rgb ? pe_maps_values(maps) : 0;
     float largest = 0;
     int is_over = 0;
+    pe_status status = PE_OK;
 
+    for (int k = 0; k < maps->info.grades && status == PE_OK; k++)
+        status = check_half_range(maps->grades[k], path, error);
     for (size_t k = 0; k < values; k++)
         is_over |= maps->rgb[k] > largest_half;
     if (!is_over)
-        return PE_OK;
+        return status;
     for (size_t k = 0; k < values; k++)
         largest = fmaxf(largest, maps->rgb[k]);
     return pe_fail(error, PE_ERROR_LIMIT,
@@ -149,37 +197,57 @@ static pe_status check_half_range(const pe_maps *maps, const char *path, pe_erro
                    (double)largest);
 }
 
-/* The atlases of all parts, one after the other: in image k lies the tile k / angles of part k % angles. */
-static float *make_atlases(const pe_maps *maps, const pe_atlas *atlas)
+/* Floats of the atlases of all parts. */
+static size_t values_of_atlases(const pe_maps *maps)
 {
-    int angles = maps->info.angles;
-    float *pictures = calloc((size_t)angles * pe_atlas_values(atlas), sizeof *pictures);
+    pe_atlas atlas;
+    size_t values = 0;
 
-    for (int k = 0; pictures && k < maps->info.images; k++)
-        pe_atlas_insert(atlas, k / angles, pe_maps_image(maps, k),
-                        pictures + (size_t)(k % angles) * pe_atlas_values(atlas));
-    return pictures;
+    for (int k = 0; k < maps->info.grades; k++)
+        values += values_of_atlases(maps->grades[k]);
+    if (maps->grades)
+        return values;
+    atlas = pe_maps_atlas(&maps->info);
+    return (size_t)maps->info.angles * pe_atlas_values(&atlas);
+}
+
+/* Atlases for the parts, one after the other: in image k lies the tile k / angles of part k % angles.  `pictures` are
+ * zeros. */
+static void add_atlases(const pe_maps *maps, pe_exr_part *parts, float *pictures)
+{
+    pe_atlas atlas = pe_maps_atlas(&maps->info);
+    int angles = maps->info.angles;
+
+    for (int k = 0; k < maps->info.images; k++)
+        pe_atlas_insert(&atlas, k / angles, pe_maps_image(maps, k),
+                        pictures + (size_t)(k % angles) * pe_atlas_values(&atlas));
+    for (int k = 0; k < angles; k++) {
+        parts[k].rgb = pictures + (size_t)k * pe_atlas_values(&atlas);
+        parts[k].width = atlas.width;
+        parts[k].height = atlas.height;
+    }
 }
 
 /* Gives the parts their pictures; *own is to be freed. */
 static pe_status add_pictures(const pe_maps *maps, pe_exr_part *parts, float **own, pe_error *error)
 {
-    pe_atlas atlas = pe_maps_atlas(&maps->info);
+    float *pictures;
 
     *own = NULL;
-    for (int k = 0; k < parts_of(&maps->info) && !pe_maps_have_atlas(&maps->info); k++) {
+    for (int k = 0; k < parts_of(&maps->info) && !maps->grades && !pe_maps_have_atlas(&maps->info); k++) {
         parts[k].rgb = pe_maps_image(maps, k);
         pe_maps_image_size(maps, k, &parts[k].width, &parts[k].height);
     }
-    if (!pe_maps_have_atlas(&maps->info))
+    if (!maps->grades && !pe_maps_have_atlas(&maps->info))
         return PE_OK;
-    *own = make_atlases(maps, &atlas);
-    if (!*own)
+    *own = pictures = calloc(values_of_atlases(maps) + 1, sizeof *pictures); /* none is something, too */
+    if (!pictures)
         return pe_fail_memory(error, "an atlas of maps");
-    for (int k = 0; k < parts_of(&maps->info); k++) {
-        parts[k].rgb = *own + (size_t)k * pe_atlas_values(&atlas);
-        parts[k].width = atlas.width;
-        parts[k].height = atlas.height;
+    if (!maps->grades)
+        add_atlases(maps, parts, pictures);
+    for (int k = 0; k < maps->info.grades; k++) {
+        add_atlases(maps->grades[k], parts + (size_t)k * (size_t)maps->info.angles, pictures);
+        pictures += values_of_atlases(maps->grades[k]);
     }
     return PE_OK;
 }

@@ -46,7 +46,8 @@ static void choose_layers(const pe_bake_options *options, double aim, pe_maps_in
 static pe_status check_options(const pe_bake_options *options, pe_error *error)
 {
     if (options->surface.ndf.kind != PE_NDF_BECKMANN && options->surface.ndf.kind != PE_NDF_PHONG)
-        return pe_fail(error, PE_ERROR_ARGUMENT, "layers and voxels are of Phong's lobe; leave the ndf out");
+        return pe_fail(error, PE_ERROR_ARGUMENT,
+                       "layers and voxels are of Phong's lobe; leave the ndf out, or ask for grades");
     if (options->threshold != 0 && !(options->threshold >= 1e-6 && options->threshold <= 0.5))
         return pe_fail(error, PE_ERROR_ARGUMENT, "threshold %g is out of range; it lies between 0.000001 and 0.5",
                        options->threshold);

@@ -136,6 +136,7 @@ typedef struct copy {
 static void copy_texel(const pe_maps *from, int vertex, const pe_frame *frame, const double world[3], float *out)
 {
     double local[3], o[3], rgb[3];
+    pe_denominators denominators = { 0 };
     pe_quad toward[3] = { { 0 } };
     pe_aims aims;
     pe_quad shown;
@@ -148,8 +149,9 @@ static void copy_texel(const pe_maps *from, int vertex, const pe_frame *frame, c
     for (int k = 0; k < 3; k++)
         rgb[k] = fmax((double)shown[k], 0);
     pe_reflect(world, frame->n, o);
+    pe_denominators_add(&denominators, from->denominator, 1);
     if (from->suns.count)
-        pe_suns_add(&from->suns, &from->info.surface, from->denominator, from->info.direction, frame->n, o, rgb);
+        pe_suns_add(&from->suns, &from->info.surface, &denominators, from->info.direction, frame->n, o, rgb);
     for (int k = 0; k < 3; k++)
         out[k] = (float)rgb[k];
 }

@@ -461,7 +461,10 @@ typedef enum pe_method {
 
     /* For surfaces whose roughness varies: Phong's lobe about the mirror direction, of any smoothness lambda. */
     PE_METHOD_LAYERS, /* a lat-long map for each of some roughnesses, as fine as its lobe needs; splines between them */
-    PE_METHOD_VOXELS  /* [Okumura]: a cube of voxels, linear between them */
+    PE_METHOD_VOXELS, /* [Okumura]: a cube of voxels, linear between them */
+
+    PE_METHOD_GRADES /* microfacets of any roughness: hemispheres for each of some alphas, a constant factor from one to
+                        the next, each with the normals and texels that it needs; the suns apart from all of them */
 } pe_method;
 
 /* What of a lobe falls below the threshold of the voxels' weight table. */
@@ -482,10 +485,15 @@ typedef enum pe_accuracy {
     PE_ACCURACY_FAST      /* the environment in clusters; the error is estimated and recorded */
 } pe_accuracy;
 
+#define PE_GRADES_ALPHA_MIN 0.02
+#define PE_GRADES_ALPHA_MAX 1.0
+
 /* A struct of zeros means the defaults. */
 typedef struct pe_bake_options {
     pe_method method;
-    pe_surface surface;  /* both alphas 0: 0.1, or those of the table */
+    pe_surface surface;  /* both alphas 0: 0.1, or those of the table.  Grades: of the smoothest; 0:
+                            PE_GRADES_ALPHA_MIN */
+    double alpha_max;    /* grades: alpha_x of the roughest, whose alpha_y is in proportion; 0: PE_GRADES_ALPHA_MAX */
     double direction[3]; /* brush direction, any length; 0 0 0: +y */
     int normals;         /* 10 f^2 + 2 for a frequency f in [1, 32]; 0: as many as fit.  Baseline: ignored */
     int width, height;   /* of a map, in texels, each in [8, 8192]; 0: as the lobe needs.  Lat-long maps: in [2, 8192];
@@ -499,7 +507,7 @@ typedef struct pe_bake_options {
      * height half its width).  AUTO is fast: voxels by the weight table, layers from smaller copies of the
      * environment. */
     pe_smoothness smoothness; /* what lambda means, and the voxels' number */
-    int layers;               /* 4 to 64; 0: as many as the error wants */
+    int layers;               /* of grades, too: 4 to 64, or 32; 0: as many as the error wants */
     double threshold;         /* of the weight table, against the lobe's peak: 0.000001 to 0.5; 0: 0.001 */
     pe_lost_weight lost;
     const char *weights; /* a file that keeps the table: read if it is there, else written; NULL: it is not kept */
@@ -515,7 +523,10 @@ pe_status pe_bake(const pe_env *env, const pe_bake_options *options, pe_maps **m
 typedef struct pe_maps_info {
     int format_version;
     pe_method method;
-    pe_surface surface;   /* of a table its name and alphas are kept, not itself: ndf.table is NULL */
+    pe_surface surface;   /* of a table its name and alphas are kept, not itself: ndf.table is NULL; of grades the
+                             smoothest's */
+    int grades;           /* how many; 0: maps of another method */
+    double alpha_max;     /* of grades: alpha_x of the roughest */
     const char *ndf_name; /* the table's; "" if there is none */
     double direction[3];
     int normals;        /* 0 for baseline */
@@ -524,7 +535,7 @@ typedef struct pe_maps_info {
     int pole_angles;    /* hemispheres of one angle: brush directions of the normals about the brush; 0: one, too */
     double pole_cosine; /* those normals n have |n.direction| above this */
     int images;         /* held: normals * angles, and what the poles have more; lat-long: normals / 2, or 1 */
-    int width, height;  /* of each */
+    int width, height;  /* of each.  Of grades normals, frequency, poles and sizes are the smoothest's, images all */
     int suns;           /* lights kept apart from the images */
     const char *source_name;
     int source_width, source_height;
@@ -539,8 +550,15 @@ typedef struct pe_maps_info {
     pe_lost_weight lost;
 } pe_maps_info;
 
-/* Do lookups heed a point's roughness?  Non-zero if so: it is the lambda of info's smoothness. */
+/* Do lookups heed a point's roughness?  Non-zero if so: it is the lambda of info's smoothness, or of grades alpha_x. */
 int pe_maps_have_roughness(const pe_maps *maps);
+
+/* The maps of grade k, 0 the smoothest, whose info says which alphas it is for; they have no suns.  NULL of maps
+ * without grades. */
+const pe_maps *pe_maps_grade(const pe_maps *maps, int k);
+
+/* Grades: the surface that a lookup of this roughness, which may lie out of range, is for.  Others: their own. */
+void pe_maps_surface(const pe_maps *maps, double roughness, pe_surface *surface);
 
 const pe_maps_info *pe_maps_get_info(const pe_maps *maps);
 
@@ -581,6 +599,7 @@ pe_status pe_baker_bake_frames(const pe_baker *baker, const pe_env *const *envs,
  * Lat-long: the half with d.n_k > 0 belongs to the normal n_k, the other to -n_k.
  * Layers: lat-long, what Phong's lobe of the exponent pe_maps_image_exponent gathers about each direction; the
  * smoothest first.
+ * Grades: those of its hemispheres, one grade after the other.
  * Voxels: those of one z, rows of one y; voxel (x, y, z) is centred at lambda r = (2 (x, y, z) + 1) / size - 1.  Those
  * that no lookup takes are black. */
 const float *pe_maps_image(const pe_maps *maps, int k);
@@ -625,7 +644,8 @@ typedef struct pe_sampling {
 typedef struct pe_point {
     double n[3], o[3];
     const double *direction; /* the brush's at this point; NULL, or maps of one angle: the one of the file */
-    double roughness;        /* layers and voxels: lambda, what is outside [0, 1] as the nearer end; others ignore it */
+    double roughness;        /* layers and voxels: lambda, what is outside [0, 1] as the nearer end; grades: alpha_x,
+                                what is out of range likewise; others ignore it */
 } pe_point;
 
 /* The reflected radiance of a point: [Motegi Eq. 3] with the interpolation asked for; of layers and voxels

@@ -100,7 +100,10 @@ void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point 
     case PE_METHOD_VOXELS:
         pe_sample_voxels(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
         break;
+    case PE_METHOD_GRADES:
+        pe_sample_grades(maps, sampling ? sampling : &defaults, &view, point->roughness, rgb);
+        break;
     }
-    if (sampling && sampling->horizon == PE_HORIZON_DARK && pe_method_has_roughness(maps->info.method))
+    if (sampling && sampling->horizon == PE_HORIZON_DARK && pe_method_has_lambda(maps->info.method))
         hide_below(maps, &view, fmin(fmax(point->roughness, 0), 1), rgb);
 }

@@ -22,6 +22,9 @@ void pe_sample_latlong(const pe_maps *maps, const pe_sampling *sampling, const p
 void pe_sample_layers(const pe_maps *maps, const double r[3], double lambda, double rgb[3]);
 void pe_sample_voxels(const pe_maps *maps, const double r[3], double lambda, double rgb[3]);
 
+/* Microfacets of the width alpha. */
+void pe_sample_grades(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double alpha,
+                      double rgb[3]);
 void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double rgb[3]);
 
 #endif

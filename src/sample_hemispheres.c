@@ -168,6 +168,10 @@ void pe_sample_hemispheres(const pe_maps *maps, const pe_sampling *sampling, con
     add_groups(&sum);
     for (int c = 0; c < 3; c++)
         rgb[c] = sum.rgb[c] > 0 ? (double)(sum.rgb[c] / sum.weight) : 0;
-    if (maps->suns.count)
-        pe_suns_add(&maps->suns, &maps->info.surface, maps->denominator, sum.direction, view->n, view->o, rgb);
+    if (maps->suns.count) {
+        pe_denominators denominators = { 0 };
+
+        pe_denominators_add(&denominators, maps->denominator, 1);
+        pe_suns_add(&maps->suns, &maps->info.surface, &denominators, sum.direction, view->n, view->o, rgb);
+    }
 }

@@ -179,11 +179,10 @@ static int is_any_near(const pe_suns *suns, double farthest, const double n[3], 
     return found;
 }
 
-static void add_weighted(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+static void add_weighted(const pe_suns *suns, const pe_surface *surface, const pe_denominators *denominators,
                          const double direction[3], const double n[3], const double o[3], double rgb[3])
 {
-    double farthest = pe_denominator_farthest(denominator); /* 1 / cos^2(theta_h) */
-    double local[3], weight, sum[3] = { 0, 0, 0 };
+    double farthest = denominators->farthest, local[3], weight, sum[3] = { 0, 0, 0 };
     int seen = 0;
     pe_frame frame;
 
@@ -204,16 +203,16 @@ static void add_weighted(const pe_suns *suns, const pe_surface *surface, const p
     if (!seen)
         return;
     pe_frame_coordinates(&frame, o, local);
-    weight = pe_denominator_at(denominator, local);
+    weight = pe_denominators_at(denominators, local);
     for (int c = 0; c < 3; c++)
         rgb[c] += sum[c] / weight;
 }
 
-void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominators *denominators,
                  const double direction[3], const double n[3], const double o[3], double rgb[3])
 {
     if (surface->weight == PE_WEIGHT_MICROFACET)
         add_scattered(suns, surface, direction, n, o, rgb);
     else
-        add_weighted(suns, surface, denominator, direction, n, o, rgb);
+        add_weighted(suns, surface, denominators, direction, n, o, rgb);
 }

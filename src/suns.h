@@ -32,7 +32,7 @@ pe_status pe_suns_draw_out(const pe_env *env, const pe_env *fine, const pe_surfa
 
 /* Adds their part of Eq. 5's quotient for the viewer o of a surface of normal n, unit vectors of the world, with
  * o.n > 0: sum of power D(h) / W(o).  PE_WEIGHT_MICROFACET: of power D G2 F / (4 o.n).  direction: the brush's. */
-void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominator *denominator,
+void pe_suns_add(const pe_suns *suns, const pe_surface *surface, const pe_denominators *denominators,
                  const double direction[3], const double n[3], const double o[3], double rgb[3]);
 
 #endif

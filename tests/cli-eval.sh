@@ -113,6 +113,30 @@ for method in layers voxels; do
         "eval of $method: no roughness"
 done
 
+# Any normal and viewer, and a roughness in the range: eval beside exact, by the root of their mean square.
+awk 'BEGIN { srand(4); for (i = 0; i < 200; i++) { for (k = 0; k < 6; k++) printf "%.6f ", rand() - 0.5
+    print 0.15 * 4 ^ rand() } }' >rough
+for surface in "--ndf ggx" "--aspect 2 --weight microfacet --material gold"; do
+    # shellcheck disable=SC2086 # words
+    "$PREFENV" bake spot.exr -o grades.exr --alpha 0.15-0.6 $surface --quiet || bail_out "bake --alpha 0.15-0.6"
+    # shellcheck disable=SC2086
+    "$PREFENV" exact spot.exr --alpha 0.15-0.6 $surface <rough |
+        paste -d ' ' - <("$PREFENV" eval grades.exr <rough) >both
+    off=$(awk '{ e += ($1 - $4) ^ 2; n += $1 ^ 2 } END { print sqrt(e / n) }' both)
+    is "$(wc -l <both) $(holds "$off < 0.1 && $off > 0")" "200 1" "eval of grades, $surface: exact within 10 %: $off"
+done
+is "$(printf '0 0 1 0 1 1 2\n0 0 1 0 1 1 0.6\n' | "$PREFENV" eval grades.exr | uniq | wc -l)" 1 \
+    "eval of grades: beyond the range it is its end"
+like "$(echo '0 0 1 0 1 1' | "$PREFENV" eval grades.exr 2>&1)" "seven are wanted: nx ny nz ox oy oz roughness" \
+    "eval of grades: no roughness"
+"$PREFENV" bake spot.exr -o layers.exr --method layers --alpha 0.15-0.6 --aspect 2 --weight microfacet --material gold \
+    --quiet
+ok "layers of a range are grades" cmp layers.exr grades.exr
+is "$("$PREFENV" info --json grades.exr |
+    jq -c '[.method, .alpha, .alpha_max, (.grades | length), .grades["0"].alpha]')" \
+    '["grades",[0.15,0.075],0.6,'"$("$PREFENV" info grades.exr | grep -c ' normals, ')"',[0.15,0.075]]' \
+    "info --json of grades"
+
 for command in "eval flat.pe.exr" "exact flat.exr"; do
     # shellcheck disable=SC2086 # words
     like "$("$PREFENV" $command <. 2>&1; echo "exit $?")" "cannot read standard input: Is a directory" \

@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
     bail_out "bake does not work"
 
 json=$("$PREFENV" info --json maps.exr)
-is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", kind: "maps", format_version: 3, method: "representative",
+is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", kind: "maps", format_version: 4, method: "representative",
     weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0],
     ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
     normals: 42, frequency: 2, angles: 1, suns: 0, images: 21, width: 16, height: 8,

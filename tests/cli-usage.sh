@@ -55,13 +55,13 @@ options_of()
 }
 
 is "$(options_of bake)" \
-    "alpha angles direction error exact fast float force frames help ior json k levels material method ndf \
+    "alpha angles aspect direction error exact fast float force frames help ior json k levels material method ndf \
 no-renormalise normals output paper quality quiet shard size threads threshold weight weights window " \
     "the options of bake"
 is "$(options_of info)" "help json " "the options of info"
 is "$(options_of eval)" "exponent help horizon interpolation threads " "the options of eval"
 is "$(options_of exact)" \
-    "alpha direction help horizon ior k levels material ndf phong quiet size threads weight window " \
+    "alpha aspect direction help horizon ior k levels material ndf phong quiet size threads weight window " \
     "the options of exact"
 is "$(options_of diff)" "amplify fail-above fail-above-relative help json mask output quiet " "the options of diff"
 
@@ -104,9 +104,19 @@ done <<'TABLE'
 --alpha 0|--alpha 0: out of range: 0.001 to 2
 --alpha 2.5|out of range: 0.001 to 2
 --alpha 0.1,7|--alpha 0.1,7: out of range
---alpha thick|one number is wanted, or two
---alpha nan|one number is wanted, or two
---alpha 0.1,0.2,0.3|one number is wanted, or two
+--alpha thick|one number is wanted, two as in 0.1,0.03, or a range as in 0.02-0.5
+--alpha nan|one number is wanted, two
+--alpha 0.1,0.2,0.3|one number is wanted, two
+--alpha 0.5-0.1|a range is from the smaller number to the larger
+--alpha 0.1-3|--alpha 0.1-3: out of range: 0.001 to 2
+--alpha 0.1-0.2-0.3|one number is wanted, two
+--alpha 0.1,0.2-0.3|one number is wanted, two
+--alpha 0.1-0.5 --paper|--alpha 0.1-0.5: a range is for --method grades; give one width, or leave out --paper
+--alpha 0.1-0.5 --method voxels|--alpha 0.1-0.5: a range is for --method grades; give one width, or leave out the other
+--alpha 0.1-1.5 --aspect 0.5|alpha 1.5, 3 is out of range
+--alpha 0.1,0.2 --aspect 3|--aspect does not go with --alpha 0.1,0.2
+--alpha 0.1 --method grades|--method grades has a range of widths; give --alpha as in 0.02-0.5, or leave it out
+--ndf ./no.ndf.exr --aspect 2|--aspect does not go with --ndf
 --direction 1,2|three numbers are wanted
 --direction 0,0,0|the zero vector has no direction
 --direction 1,inf,0|three numbers are wanted

@@ -95,6 +95,32 @@ static void seed_roughness(seed *s, pe_method method)
     free(rgb);
 }
 
+/* Grades, and a sun. */
+static void seed_grades(seed *s)
+{
+    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
+    float *rgb = reference_noise(48, 24, 7);
+    pe_bake_options options = { .method = PE_METHOD_GRADES,
+                                .normals = 12,
+                                .width = 8,
+                                .height = 8,
+                                .layers = 4,
+                                .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.2, NULL },
+                                .alpha_max = 0.9 };
+    pe_env *env;
+    pe_maps *maps = NULL;
+
+    rgb[3 * (9 * 48 + 20)] = 30000;
+    close(mkstemp(path));
+    need(pe_env_create(48, 24, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
+             pe_maps_get_info(maps)->suns == 1 && pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
+         "cannot make maps of grades");
+    load_file(path, s);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    free(rgb);
+}
+
 static void seed_table(seed *s)
 {
     static const double range[2] = { -0.3, 0.5 };
@@ -334,7 +360,8 @@ int main(void)
 {
     static seed seeds[] = { { .name = "half maps" }, { .name = "float maps" }, { .name = "PNG" },
                             { .name = "HDR" },       { .name = "heights" },    { .name = "table" },
-                            { .name = "angles" },    { .name = "layers" },     { .name = "voxels" } };
+                            { .name = "angles" },    { .name = "layers" },     { .name = "voxels" },
+                            { .name = "grades" } };
 
     seed_maps(&seeds[0], PE_PIXEL_HALF);
     seed_maps(&seeds[1], PE_PIXEL_FLOAT);
@@ -345,7 +372,8 @@ int main(void)
     seed_angles(&seeds[6]);
     seed_roughness(&seeds[7], PE_METHOD_LAYERS);
     seed_roughness(&seeds[8], PE_METHOD_VOXELS);
-    for (int k = 0; k < 9; k++) {
+    seed_grades(&seeds[9]);
+    for (int k = 0; k < 10; k++) {
         seeds[k].rounds = k < 6 ? ROUNDS : ROUNDS / 10; /* with suns or more parts, loading takes longer */
         test_seed(&seeds[k]);
     }

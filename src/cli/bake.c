@@ -39,9 +39,13 @@ static const cli_operand operands[] = {
 };
 
 static const cli_choice methods[] = {
-    { "hemispheres", PE_METHOD_HEMISPHERES }, { "representative", PE_METHOD_REPRESENTATIVE },
-    { "baseline", PE_METHOD_BASELINE },       { "layers", PE_METHOD_LAYERS },
-    { "voxels", PE_METHOD_VOXELS },           { NULL, 0 },
+    { "hemispheres", PE_METHOD_HEMISPHERES },
+    { "representative", PE_METHOD_REPRESENTATIVE },
+    { "baseline", PE_METHOD_BASELINE },
+    { "layers", PE_METHOD_LAYERS },
+    { "voxels", PE_METHOD_VOXELS },
+    { "grades", PE_METHOD_GRADES },
+    { NULL, 0 },
 };
 
 static const cli_choice qualities[] = {
@@ -56,11 +60,14 @@ static const cli_option options[] = {
     { "method", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, method), 0, 0, methods, NULL, 0,
       "hemispheres (the default): a picture of its hemisphere for each normal; representative: opposite normals share "
       "a lat-long map; baseline: one lat-long map, its lobe the one at normal incidence, for comparison; layers: for "
-      "roughness that varies, Phong's lobe of any smoothness; voxels: the same in a cube" },
+      "roughness that varies, Phong's lobe of any smoothness; voxels: the same in a cube; grades: for roughness that "
+      "varies, hemispheres for each of some roughnesses of the range --alpha LO-HI, which by itself means this "
+      "method" },
     { "paper", 0, NULL, CLI_SWITCH, offsetof(bake_settings, paper), 0, 0, NULL, NULL, 0,
       "the paper's settings: --method representative --normals 42 --size 400x200" },
     CLI_OPTION_NDF(bake_settings),
     CLI_OPTION_ALPHA(bake_settings),
+    CLI_OPTION_ASPECT(bake_settings),
     CLI_OPTION_DIRECTION(bake_settings),
     CLI_OPTION_WEIGHT(bake_settings),
     CLI_OPTION_MATERIAL(bake_settings),
@@ -120,6 +127,7 @@ static int check_roughness(const bake_settings *settings)
         int given, for_layers, for_voxels, for_others;
     } rows[] = {
         { "alpha", settings->surface.alpha[0] > 0, 0, 0, 1 },
+        { "aspect", settings->surface.aspect > 0, 0, 0, 1 },
         { "normals", settings->normals > 0, 0, 0, 1 },
         { "angles", settings->angles > 1, 0, 0, 1 },
         { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0, 0, 1 },
@@ -158,6 +166,28 @@ static int check_roughness(const bake_settings *settings)
     return CLI_SUCCESS;
 }
 
+/* A range of roughnesses, or layers of what is not Phong's lobe, are grades. */
+static int choose_method(bake_settings *settings)
+{
+    const double *alpha = settings->surface.alpha;
+
+    if (settings->method == PE_METHOD_LAYERS && strcmp(settings->surface.ndf, "beckmann") != 0 &&
+        strcmp(settings->surface.ndf, "phong") != 0)
+        settings->method = PE_METHOD_GRADES;
+    if (alpha[2] > 0 && (settings->method == PE_METHOD_LAYERS || (!settings->method && !settings->paper)))
+        settings->method = PE_METHOD_GRADES;
+    if (alpha[2] > 0 && settings->method != PE_METHOD_GRADES) {
+        cli_error("bake", "--alpha %g-%g: a range is for --method grades; give one width, or leave out %s", alpha[0],
+                  alpha[2], settings->paper ? "--paper" : "the other method");
+        return CLI_FAILURE;
+    }
+    if (settings->method == PE_METHOD_GRADES && alpha[0] > 0 && alpha[2] == 0) {
+        cli_error("bake", "--method grades has a range of widths; give --alpha as in 0.02-0.5, or leave it out");
+        return CLI_FAILURE;
+    }
+    return CLI_SUCCESS;
+}
+
 static int check_settings(const bake_settings *settings)
 {
     if (settings->exact && settings->fast) {
@@ -184,6 +214,7 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
     *out = (pe_bake_options){
         .method = settings->paper ? PE_METHOD_REPRESENTATIVE : (pe_method)settings->method,
         .surface = *surface,
+        .alpha_max = settings->surface.alpha[2],
         .direction = { settings->direction[0], settings->direction[1], settings->direction[2] },
         .normals = settings->normals,
         .width = has_roughness(settings) ? 0 : settings->size[0],
@@ -200,6 +231,10 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
         .weights = settings->weights,
         .threads = settings->threads,
     };
+    if (settings->method == PE_METHOD_GRADES && settings->surface.alpha[0] == 0) {
+        out->surface.ndf.alpha_y *= PE_GRADES_ALPHA_MIN / out->surface.ndf.alpha_x;
+        out->surface.ndf.alpha_x = PE_GRADES_ALPHA_MIN;
+    }
 }
 
 /* ---- one ---- */
@@ -219,7 +254,7 @@ static void print_summary(const bake_settings *settings, const batch *b, double 
         json_integer(&out, "bytes", (long long)bytes);
         json_number(&out, "seconds", seconds);
         json_integer(&out, "repairs", (long long)b->repairs);
-        describe_maps_json(&out, info);
+        describe_maps_json(&out, b->maps);
         json_close(&out);
         return;
     }
@@ -299,7 +334,7 @@ static void print_sequence_json(const bake_settings *settings, const batch *b, d
     json_integer(&out, "left", b->left);
     json_number(&out, "seconds", seconds);
     if (b->maps)
-        describe_maps_json(&out, pe_maps_get_info(b->maps));
+        describe_maps_json(&out, b->maps);
     json_close(&out);
 }
 
@@ -358,7 +393,7 @@ static int bake_run(int argc, char **argv)
 
     if (result != CLI_PROCEED)
         return result;
-    if (check_settings(&settings) != CLI_SUCCESS ||
+    if (choose_method(&settings) != CLI_SUCCESS || check_settings(&settings) != CLI_SUCCESS ||
         cli_make_surface("bake", &settings.surface, &surface, &table) != CLI_SUCCESS)
         return CLI_FAILURE;
     set_options(&settings, &surface, &b.options);

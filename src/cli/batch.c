@@ -75,10 +75,12 @@ static void note_flaws(batch *b, const char *environment, const pe_env *env)
 static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
-    int of_lookups = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_LAYERS; /* else not measured */
-    const char *way_out = info->method == PE_METHOD_HEMISPHERES ? "give more --normals, and a larger --size"
-                          : of_lookups                          ? "finer layers were no better"
-                                                                : "--exact has none";
+    int of_lookups = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_LAYERS ||
+                     info->method == PE_METHOD_GRADES; /* else not measured */
+    const char *way_out = info->method == PE_METHOD_GRADES        ? "give a smaller range of --alpha"
+                          : info->method == PE_METHOD_HEMISPHERES ? "give more --normals, and a larger --size"
+                          : of_lookups                            ? "finer layers were no better"
+                                                                  : "--exact has none";
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
 
     if (b->quiet || b->made > 0 || !(wanted > 0 && reached > wanted))
@@ -289,13 +291,14 @@ static int is_same_surface(const pe_maps_info *a, const pe_maps_info *b)
 
 static int is_same_bake(const pe_maps_info *a, const pe_maps_info *b)
 {
-    return is_same_surface(a, b) && a->method == b->method && a->normals == b->normals && a->angles == b->angles &&
-           a->pole_angles == b->pole_angles && a->pole_cosine == b->pole_cosine && a->images == b->images &&
-           a->width == b->width && a->height == b->height && a->accuracy == b->accuracy &&
-           a->error_wanted == b->error_wanted && a->smoothness.size == b->smoothness.size &&
-           a->smoothness.window == b->smoothness.window && a->smoothness.levels == b->smoothness.levels &&
-           a->threshold == b->threshold && a->lost == b->lost && a->source_width == b->source_width &&
-           a->source_height == b->source_height && memcmp(a->direction, b->direction, sizeof a->direction) == 0;
+    return is_same_surface(a, b) && a->method == b->method && a->grades == b->grades && a->alpha_max == b->alpha_max &&
+           a->normals == b->normals && a->angles == b->angles && a->pole_angles == b->pole_angles &&
+           a->pole_cosine == b->pole_cosine && a->images == b->images && a->width == b->width &&
+           a->height == b->height && a->accuracy == b->accuracy && a->error_wanted == b->error_wanted &&
+           a->smoothness.size == b->smoothness.size && a->smoothness.window == b->smoothness.window &&
+           a->smoothness.levels == b->smoothness.levels && a->threshold == b->threshold && a->lost == b->lost &&
+           a->source_width == b->source_width && a->source_height == b->source_height &&
+           memcmp(a->direction, b->direction, sizeof a->direction) == 0;
 }
 
 /* A file that is not there is not newer. */

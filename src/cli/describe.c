@@ -29,7 +29,7 @@ void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES])
                         100 * info->error_estimate);
     else
         used = snprintf(text, DESCRIBE_BYTES, "exact");
-    if (info->method == PE_METHOD_HEMISPHERES || info->smoothness.size)
+    if (info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_GRADES || info->smoothness.size)
         snprintf(text + used, DESCRIBE_BYTES - (size_t)used, "; lookups %.2g %%", 100 * info->lookup_error);
 }
 
@@ -50,6 +50,9 @@ void describe_images(const pe_maps_info *info, char text[DESCRIBE_BYTES])
         snprintf(text, DESCRIBE_BYTES, "%d^3 voxels", info->images);
     else if (info->method == PE_METHOD_LAYERS)
         snprintf(text, DESCRIBE_BYTES, "%d layers of up to %dx%d", info->images, info->width, info->height);
+    else if (info->method == PE_METHOD_GRADES)
+        snprintf(text, DESCRIBE_BYTES, "%d maps in %d grades of alpha %g to %g", info->images, info->grades,
+                 info->surface.ndf.alpha_x, info->alpha_max);
     else
         snprintf(text, DESCRIBE_BYTES, "%d %s of %dx%d", info->images, info->images == 1 ? "map" : "maps", info->width,
                  info->height);
@@ -67,13 +70,25 @@ static void describe_roughness(const pe_maps_info *info)
                info->lost == PE_LOST_DARK ? "is missing" : "is made up for");
 }
 
+static void describe_range(const pe_maps_info *info)
+{
+    double aspect = info->surface.ndf.alpha_x / info->surface.ndf.alpha_y;
+
+    printf("alpha      %g to %g", info->surface.ndf.alpha_x, info->alpha_max);
+    if (fabs(aspect - 1) > 1e-9)
+        printf(" along the brush, %g times that across", 1 / aspect);
+    printf("\n");
+}
+
 static void describe_surface(const pe_maps_info *info)
 {
     if (info->surface.ndf.kind == PE_NDF_TABLE)
         printf("ndf        table %s\n", *info->ndf_name ? info->ndf_name : "(no name)");
     else
         printf("ndf        %s\n", ndf_name(&info->surface.ndf));
-    if (info->surface.ndf.alpha_x == info->surface.ndf.alpha_y)
+    if (info->grades)
+        describe_range(info);
+    else if (info->surface.ndf.alpha_x == info->surface.ndf.alpha_y)
         printf("alpha      %g\n", info->surface.ndf.alpha_x);
     else
         printf("alpha      %g along, %g across the brush\n", info->surface.ndf.alpha_x, info->surface.ndf.alpha_y);
@@ -82,8 +97,20 @@ static void describe_surface(const pe_maps_info *info)
     printf("direction  %g %g %g\n", info->direction[0], info->direction[1], info->direction[2]);
 }
 
-void describe_maps(const pe_maps_info *info)
+static void describe_grades(const pe_maps *maps)
 {
+    for (int k = 0; k < pe_maps_get_info(maps)->grades; k++) {
+        const pe_maps_info *info = pe_maps_get_info(pe_maps_grade(maps, k));
+
+        printf("%s alpha %-8.4g %5d normals, %5d maps of %dx%d; lookups %.2g %%\n", k ? "          " : "grades    ",
+               info->surface.ndf.alpha_x, info->normals, info->images, info->width, info->height,
+               100 * info->lookup_error);
+    }
+}
+
+void describe_maps(const pe_maps *maps)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
     char accuracy[DESCRIBE_BYTES], images[DESCRIBE_BYTES];
 
     describe_accuracy(info, accuracy);
@@ -94,16 +121,17 @@ void describe_maps(const pe_maps_info *info)
         printf("normals    %d (frequency %d), each with a picture of its hemisphere\n", info->normals, info->frequency);
     if (info->angles > 1)
         printf("angles     %d brush directions\n", info->angles);
-    if (info->pole_angles)
+    if (info->pole_angles && !info->grades)
         printf("poles      %d brush directions for normals within %.1f degrees of the brush\n", info->pole_angles,
                acos(info->pole_cosine) * 180 / M_PI);
     if (info->suns)
         printf("suns       %d lights kept apart\n", info->suns);
-    if (info->smoothness.size)
+    if (info->smoothness.size || info->grades)
         describe_images(info, images);
     else
         snprintf(images, sizeof images, "%d of %dx%d", info->images, info->width, info->height);
     printf("images     %s\n", images);
+    describe_grades(maps);
     if (info->smoothness.size)
         describe_roughness(info);
     else
@@ -114,8 +142,30 @@ void describe_maps(const pe_maps_info *info)
     printf("format     version %d\n", info->format_version);
 }
 
-void describe_maps_json(json *out, const pe_maps_info *info)
+static void describe_grades_json(json *out, const pe_maps *maps)
 {
+    json_open(out, "grades");
+    for (int k = 0; k < pe_maps_get_info(maps)->grades; k++) {
+        const pe_maps_info *info = pe_maps_get_info(pe_maps_grade(maps, k));
+        const double alpha[2] = { info->surface.ndf.alpha_x, info->surface.ndf.alpha_y };
+        char name[16];
+
+        snprintf(name, sizeof name, "%d", k);
+        json_open(out, name);
+        json_numbers(out, "alpha", alpha, 2);
+        json_integer(out, "normals", info->normals);
+        json_integer(out, "images", info->images);
+        json_integer(out, "width", info->width);
+        json_integer(out, "height", info->height);
+        json_number(out, "lookup_error", info->lookup_error);
+        json_close(out);
+    }
+    json_close(out);
+}
+
+void describe_maps_json(json *out, const pe_maps *maps)
+{
+    const pe_maps_info *info = pe_maps_get_info(maps);
     const double alpha[2] = { info->surface.ndf.alpha_x, info->surface.ndf.alpha_y };
     const double direction[3] = { info->direction[0], info->direction[1], info->direction[2] };
 
@@ -152,6 +202,10 @@ void describe_maps_json(json *out, const pe_maps_info *info)
     if (info->method == PE_METHOD_VOXELS) {
         json_number(out, "threshold", info->threshold);
         json_text(out, "lost", info->lost == PE_LOST_DARK ? "dark" : "spread");
+    }
+    if (info->grades) {
+        json_number(out, "alpha_max", info->alpha_max);
+        describe_grades_json(out, maps);
     }
     json_number(out, "error_estimate", info->error_estimate);
     json_number(out, "lookup_error", info->lookup_error);

@@ -15,9 +15,9 @@ void describe_accuracy(const pe_maps_info *info, char text[DESCRIBE_BYTES]);
 void describe_images(const pe_maps_info *info, char text[DESCRIBE_BYTES]);
 
 /* A table of a label and a value a line, to standard output. */
-void describe_maps(const pe_maps_info *info);
+void describe_maps(const pe_maps *maps);
 
 /* The same as members of the object that is open. */
-void describe_maps_json(json *out, const pe_maps_info *info);
+void describe_maps_json(json *out, const pe_maps *maps);
 
 #endif

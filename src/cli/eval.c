@@ -91,7 +91,8 @@ const cli_command eval_command = {
     "look maps up for lines of normal and viewer",
     "Reads lines 'nx ny nz ox oy oz' from standard input, the normal and the direction to the viewer, or lines "
     "'nx ny nz ox oy oz dx dy dz', with the brush direction there, none of any particular length, and prints the "
-    "reflected radiance 'R G B' for each, in order. Of layers and voxels a seventh number is the smoothness lambda. "
+    "reflected radiance 'R G B' for each, in order. Of layers and voxels a seventh number is the smoothness lambda, of "
+    "grades the roughness alpha. "
     "Blank lines and lines that start with # are passed over.",
     operands,
     options,

@@ -30,6 +30,7 @@ static const cli_choice horizons[] = {
 static const cli_option options[] = {
     CLI_OPTION_NDF(exact_settings),
     CLI_OPTION_ALPHA(exact_settings),
+    CLI_OPTION_ASPECT(exact_settings),
     CLI_OPTION_DIRECTION(exact_settings),
     CLI_OPTION_WEIGHT(exact_settings),
     CLI_OPTION_MATERIAL(exact_settings),
@@ -55,6 +56,7 @@ enum { LINES_PER_BLOCK = 4 }; /* a line takes about as long as a million texels 
 typedef struct truth {
     const pe_env *env;
     pe_surface surface;
+    double alpha_max; /* where a range of alpha_x ends, that begins with the surface's; 0: there is none */
     double direction[3];
     pe_smoothness scale;
     pe_horizon horizon;
@@ -65,6 +67,18 @@ static void sum_up(const pe_point *point, const void *data, double rgb[3])
     const truth *t = data;
 
     pe_exact(t->env, &t->surface, point->direction ? point->direction : t->direction, point->n, point->o, rgb);
+}
+
+/* What lies beyond the range is as its end, as with maps. */
+static void sum_up_rough(const pe_point *point, const void *data, double rgb[3])
+{
+    const truth *t = data;
+    double factor = fmin(fmax(point->roughness, t->surface.ndf.alpha_x), t->alpha_max) / t->surface.ndf.alpha_x;
+    pe_surface surface = t->surface;
+
+    surface.ndf.alpha_x *= factor;
+    surface.ndf.alpha_y *= factor;
+    pe_exact(t->env, &surface, point->direction ? point->direction : t->direction, point->n, point->o, rgb);
 }
 
 static void sum_up_phong(const pe_point *point, const void *data, double rgb[3])
@@ -85,16 +99,15 @@ static int answer_lines(const exact_settings *settings, const pe_surface *surfac
     const truth t = {
         env,
         *surface,
+        settings->surface.alpha[2],
         { settings->direction[0], settings->direction[1], settings->direction[2] },
         { settings->size, settings->window, settings->levels },
         (pe_horizon)settings->horizon,
     };
-    const lines_job job = { "exact",
-                            settings->threads,
-                            LINES_PER_BLOCK,
-                            settings->phong ? QUERY_ROUGHNESS : QUERY_PLAIN,
-                            settings->phong ? sum_up_phong : sum_up,
-                            &t };
+    query_function *function = settings->phong ? sum_up_phong : t.alpha_max > 0 ? sum_up_rough : sum_up;
+    const lines_job job = { "exact",         settings->threads,
+                            LINES_PER_BLOCK, function == sum_up ? QUERY_PLAIN : QUERY_ROUGHNESS,
+                            function,        &t };
 
     return lines_run(&job);
 }
@@ -125,6 +138,7 @@ static int check_lobe(const exact_settings *settings)
     } rows[] = {
         { "horizon", settings->horizon != PE_HORIZON_IGNORED, 1 },
         { "alpha", settings->surface.alpha[0] > 0, 0 },
+        { "aspect", settings->surface.aspect > 0, 0 },
         { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0 },
         { "material", settings->surface.material != NULL, 0 },
     };

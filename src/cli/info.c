@@ -47,11 +47,11 @@ static pe_status tell_maps(const content *c, pe_error *error)
         return status;
     if (c->settings->json) {
         open_json(&out, c->settings, "maps");
-        describe_maps_json(&out, pe_maps_get_info(maps));
+        describe_maps_json(&out, maps);
         json_close(&out);
     } else {
         printf("file       %s\n", c->settings->file);
-        describe_maps(pe_maps_get_info(maps));
+        describe_maps(maps);
     }
     pe_maps_free(maps);
     return PE_OK;

@@ -9,7 +9,7 @@ typedef enum cli_type {
     CLI_SWITCH,  /* nothing written; int, 1 if given */
     CLI_INTEGER, /* 42; int */
     CLI_NUMBER,  /* 0.5; double */
-    CLI_PAIR,    /* A, which stands for A,A, or A,B; double[2] */
+    CLI_WIDTHS,  /* A, which stands for A,A, or A,B, and 0; or a range A-B: A, A and B; double[3] */
     CLI_LENGTH,  /* 1.5um: a number and nm, um, mm, cm, m or in, um if none; double, in um */
     CLI_LENGTHS, /* A, which stands for A,A, or A,B; double[2] */
     CLI_VECTOR,  /* X,Y,Z, not all zero; double[3] */
@@ -98,8 +98,17 @@ extern const cli_choice cli_weights[];
     }
 #define CLI_OPTION_ALPHA(settings) \
     { \
-        "alpha", 0, "A|AX,AY", CLI_PAIR, offsetof(settings, surface.alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, NULL, 0, \
-            "width of beckmann, ggx or phong; two numbers: along and across the brush direction. Default: 0.1" \
+        "alpha", 0, "A|AX,AY|LO-HI", CLI_WIDTHS, offsetof(settings, surface.alpha), PE_ALPHA_MIN, PE_ALPHA_MAX, NULL, \
+            NULL, 0, \
+            "width of beckmann, ggx or phong; two numbers: along and across the brush direction; a range: roughness " \
+            "that varies, said at each lookup. Default: 0.1" \
+    }
+#define CLI_OPTION_ASPECT(settings) \
+    { \
+        "aspect", 0, "R", CLI_NUMBER, offsetof(settings, surface.aspect), 0.01, 100, NULL, NULL, 0, \
+            "with --alpha of one number or a range, which is along the brush direction then: how many times the " \
+            "width " \
+            "across it that is. Default: 1" \
     }
 #define CLI_OPTION_WEIGHT(settings) \
     { \

@@ -1,4 +1,4 @@
-/* reflectance.c - what the options say of the surface: --ndf, --alpha, --weight, --material, --ior, --k. */
+/* reflectance.c - what the options say of the surface: --ndf, --alpha, --aspect, --weight, --material, --ior, --k. */
 #include "reflectance.h"
 #include "cli.h"
 
@@ -22,9 +22,9 @@ static int read_table(const char *command, const cli_surface *asked, pe_ndf *ndf
 {
     pe_error error;
 
-    if (asked->alpha[0] > 0) {
-        cli_error(command, "--alpha does not go with --ndf %s, which has its widths from its file; leave it out",
-                  asked->ndf);
+    if (asked->alpha[0] > 0 || asked->aspect > 0) {
+        cli_error(command, "--%s does not go with --ndf %s, which has its widths from its file; leave it out",
+                  asked->alpha[0] > 0 ? "alpha" : "aspect", asked->ndf);
         return CLI_FAILURE;
     }
     if (pe_ndf_table_read(asked->ndf, table, &error) != PE_OK) {
@@ -32,6 +32,19 @@ static int read_table(const char *command, const cli_surface *asked, pe_ndf *ndf
         return CLI_FAILURE;
     }
     *ndf = (pe_ndf){ .kind = PE_NDF_TABLE, .table = *table };
+    return CLI_SUCCESS;
+}
+
+static int choose_aspect(const char *command, const cli_surface *asked, pe_ndf *ndf)
+{
+    if (asked->aspect == 0)
+        return CLI_SUCCESS;
+    if (asked->alpha[0] != asked->alpha[1]) {
+        cli_error(command, "--aspect does not go with --alpha %g,%g, which says both widths; leave it out",
+                  asked->alpha[0], asked->alpha[1]);
+        return CLI_FAILURE;
+    }
+    ndf->alpha_y = ndf->alpha_x / asked->aspect;
     return CLI_SUCCESS;
 }
 
@@ -45,7 +58,7 @@ static int choose_ndf(const char *command, const cli_surface *asked, pe_ndf *ndf
             *ndf = (pe_ndf){ closed_forms[k].kind, asked->alpha[0], asked->alpha[1], NULL };
             if (ndf->alpha_x == 0)
                 ndf->alpha_x = ndf->alpha_y = 0.1;
-            return CLI_SUCCESS;
+            return choose_aspect(command, asked, ndf);
         }
     }
     nearest = cli_nearest(asked->ndf, names, CLOSED_FORMS);
@@ -102,6 +115,19 @@ static int choose_index(const char *command, const cli_surface *asked, pe_surfac
     return CLI_SUCCESS;
 }
 
+/* And the roughest of a range. */
+static pe_status check_surface(const cli_surface *asked, const pe_surface *surface, pe_error *error)
+{
+    pe_surface roughest = *surface;
+    pe_status status = pe_surface_check(surface, error);
+
+    if (status != PE_OK || !(asked->alpha[2] > 0))
+        return status;
+    roughest.ndf.alpha_y *= asked->alpha[2] / asked->alpha[0];
+    roughest.ndf.alpha_x = asked->alpha[2];
+    return pe_surface_check(&roughest, error);
+}
+
 int cli_make_surface(const char *command, const cli_surface *asked, pe_surface *surface, pe_ndf_table **table)
 {
     pe_error error;
@@ -113,7 +139,7 @@ int cli_make_surface(const char *command, const cli_surface *asked, pe_surface *
     if ((is_file(asked->ndf) ? read_table(command, asked, &surface->ndf, table)
                              : choose_ndf(command, asked, &surface->ndf)) != CLI_SUCCESS)
         return CLI_FAILURE;
-    if (pe_surface_check(surface, &error) == PE_OK)
+    if (check_surface(asked, surface, &error) == PE_OK)
         return CLI_SUCCESS;
     pe_ndf_table_free(*table);
     cli_error(command, "%s", error.message);

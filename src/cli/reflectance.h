@@ -1,4 +1,4 @@
-/* reflectance.h - what the options say of the surface: --ndf, --alpha, --weight, --material, --ior, --k. */
+/* reflectance.h - what the options say of the surface: --ndf, --alpha, --aspect, --weight, --material, --ior, --k. */
 #ifndef CLI_REFLECTANCE_H
 #define CLI_REFLECTANCE_H
 
@@ -7,7 +7,8 @@
 /* As the options fill it; zeros: not given. */
 typedef struct cli_surface {
     const char *ndf;
-    double alpha[2];
+    double alpha[3]; /* along, across; and where a range ends, which is of those along */
+    double aspect;
     int weight;
     const char *material;
     double eta[3], k[3];

@@ -153,6 +153,25 @@ static int store_two(const cli_command *command, const cli_option *option, const
     return CLI_SUCCESS;
 }
 
+/* A range has a number before its '-', and none of them is below 0. */
+static int store_widths(const cli_command *command, const cli_option *option, const char *text, double target[3])
+{
+    static const char wanted[] = "one number is wanted, two as in 0.1,0.03, or a range as in 0.02-0.5";
+    double values[2];
+
+    if (!strpbrk(text, ",") && read_values(text, read_number, '-', 2, values) == 2) {
+        if (!in_range(option, values[0]) || !in_range(option, values[1]))
+            return refuse_range(command, option, text);
+        if (!(values[0] < values[1]))
+            return refuse(command, option, text, "a range is from the smaller number to the larger");
+        target[0] = target[1] = values[0];
+        target[2] = values[1];
+        return CLI_SUCCESS;
+    }
+    target[2] = 0;
+    return store_two(command, option, text, read_number, wanted, target);
+}
+
 static int store_triple(const cli_command *command, const cli_option *option, const char *text, double target[3])
 {
     double values[3];
@@ -226,8 +245,8 @@ int cli_store(const cli_command *command, const cli_option *option, const char *
         return store_integer(command, option, text, target);
     case CLI_NUMBER:
         return store_number(command, option, text, target);
-    case CLI_PAIR:
-        return store_two(command, option, text, read_number, "one number is wanted, or two as in 0.1,0.03", target);
+    case CLI_WIDTHS:
+        return store_widths(command, option, text, target);
     case CLI_LENGTH:
         return store_length(command, option, text, target);
     case CLI_LENGTHS:
