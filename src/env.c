@@ -5,6 +5,7 @@
 #include "status.h"
 #include "vector.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,24 +108,25 @@ static void repair_texel(float *texel, const float brightest[3], repairs *found)
     found->texels += unsound || negative;
 }
 
-/* Nearly always, so that it is looked for first, without branches. */
-static bool is_whole(const float *rgb, size_t texels)
+/* Are all values at least `least`, and radiances?  Nearly always, so that it is asked first, without branches. */
+static bool are_above(float least, const float *rgb, size_t texels)
 {
     int is_wrong = 0;
 
     for (size_t k = 0; k < 3 * texels; k++)
-        is_wrong |= !(rgb[k] >= 0) | !(rgb[k] <= PE_RADIANCE_MAX);
+        is_wrong |= !(rgb[k] >= least) | !(rgb[k] <= PE_RADIANCE_MAX);
     return !is_wrong;
 }
 
 static repairs repair(float *rgb, size_t texels)
 {
     repairs found = { 0 };
-    float brightest[3];
+    float brightest[3] = { 0, 0, 0 };
 
-    if (is_whole(rgb, texels))
+    if (are_above(0, rgb, texels))
         return found;
-    find_brightest(rgb, texels, brightest);
+    if (!are_above(-FLT_MAX, rgb, texels))
+        find_brightest(rgb, texels, brightest);
     for (size_t texel = 0; texel < texels; texel++)
         repair_texel(rgb + 3 * texel, brightest, &found);
     return found;
