@@ -161,8 +161,8 @@ static void add_scattered(const pe_suns *suns, const pe_surface *surface, const 
     }
 }
 
-/* Whether the half vector with any sun may be one that counts: most lookups are nowhere near a sun.  Half vectors within
- * theta of n have their suns within 2 theta of the mirror direction. */
+/* Whether the half vector with any sun may be one that counts: most lookups are nowhere near a sun.  Half vectors
+ * within theta of n have their suns within 2 theta of the mirror direction. */
 static int is_any_near(const pe_suns *suns, double farthest, const double n[3], const double o[3])
 {
     const float least = (float)(2 / farthest - 1.00001); /* cos(2 theta) = 2 cos^2(theta) - 1 */

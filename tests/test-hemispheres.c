@@ -6,6 +6,7 @@
 #include "ndf.h"
 #include "reference.h"
 #include "sample_point.h"
+#include "suns.h"
 #include "tap.h"
 #include "vector.h"
 
@@ -170,6 +171,52 @@ static void test_dark(void)
 }
 
 /* ---- suns ---- */
+
+/* What suns add, those left out that are too far from the mirror direction, against the sum over all of them, in parts
+ * of one sun's brightest highlight. */
+static void test_sum_of_suns(pe_ndf_kind kind, double alpha_x, double alpha_y)
+{
+    enum { COUNT = 13, VIEWS = 20000 };
+    static const double up[3] = { 0, 0, 1 };
+    const pe_surface surface = { .ndf = { kind, alpha_x, alpha_y, NULL } };
+    pe_suns suns = { 0 };
+    pe_denominators denominators = { 0 };
+    pe_denominator *denominator;
+    unsigned state = 21;
+    double worst = 0;
+
+    need(pe_denominator_make(&surface.ndf, &denominator, NULL) == PE_OK, "no memory");
+    pe_denominators_add(&denominators, denominator, 1);
+    for (int k = 0; k < COUNT; k++) {
+        double w[3], power[3] = { 1, reference_random(&state), reference_random(&state) };
+
+        reference_random_direction(&state, w);
+        pe_suns_add_sun(&suns, w, power);
+    }
+    for (int view = 0; view < VIEWS; view++) {
+        double n[3], o[3], local[3], got[3] = { 0, 0, 0 }, sum[3] = { 0, 0, 0 };
+        pe_frame frame;
+
+        random_view(&state, 0, n, o);
+        pe_suns_add(&suns, &surface, &denominators, aslant, n, o, got);
+        pe_frame_make(n, aslant, &frame);
+        for (int k = 0; k < COUNT; k++) {
+            const double *w = suns.direction[k];
+            double h[3] = { o[0] + w[0], o[1] + w[1], o[2] + w[2] };
+
+            pe_frame_coordinates(&frame, h, local);
+            pe_normalize(local, local);
+            for (int c = 0; c < 3 && pe_dot(w, n) > 0; c++)
+                sum[c] += pe_ndf_evaluate(&surface.ndf, local) * suns.power[k][c];
+        }
+        pe_frame_coordinates(&frame, o, local);
+        for (int c = 0; c < 3; c++)
+            worst = fmax(worst, fabs(got[c] * pe_denominator_at(denominator, local) - sum[c]));
+    }
+    worst /= pe_ndf_evaluate(&surface.ndf, up);
+    ok(worst < 5e-9, "%s, alpha %g, %g: %d suns add up to within %.1e", kinds[kind], alpha_x, alpha_y, COUNT, worst);
+    pe_denominator_free(denominator);
+}
 
 /* In the highlights of suns, for any normal.  Beckmann's bound is the discreteness of the truth's own denominator: it
  * falls with the environment's texels; GGX's is that of the mean over half vectors that stands for the integral. */
@@ -698,6 +745,10 @@ int main(void)
     test_texels(PE_NDF_BECKMANN, 0.4, 0.2, 5);
     test_texels(PE_NDF_GGX, 0.2, 0.5, 1);
     test_texels(PE_NDF_PHONG, 0.3, 0.3, 4);
+    test_sum_of_suns(PE_NDF_BECKMANN, 0.1, 0.1);
+    test_sum_of_suns(PE_NDF_BECKMANN, 0.4, 0.2);
+    test_sum_of_suns(PE_NDF_GGX, 0.2, 0.2);
+    test_sum_of_suns(PE_NDF_PHONG, 0.3, 0.3);
     test_suns(PE_NDF_BECKMANN, 0.2, 0.2, 0.006, 0.002);
     test_suns(PE_NDF_BECKMANN, 0.4, 0.2, 0.006, 0.002);
     test_suns(PE_NDF_GGX, 0.2, 0.2, 0.015, 0.005);
