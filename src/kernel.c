@@ -410,8 +410,8 @@ void pe_kernel_spread(const pe_kernel *k, const pe_lights *lights, int member, f
  * in the order of a group's normals, or of a strip's frames. */
 typedef enum order { ONE_WEIGHT, OF_GROUP, OF_STRIP } order;
 
-/* Half of a cell: a vector that AVX2 has, too, and that GCC's clones make well of one weight; of a whole cell's they make
- * one lane after the other. */
+/* Half of a cell: a vector that AVX2 has, too, and that GCC's clones make well of one weight, where they fill that of a
+ * whole cell lane by lane. */
 typedef float half __attribute__((vector_size(32)));
 
 INLINE half load_half(const float *from)

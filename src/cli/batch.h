@@ -43,8 +43,8 @@ typedef struct batch {
  * cannot be done. */
 int batch_make(batch *b, const char *environment, const char *output);
 
-/* The same of a frame, in the company of others: it may wait for them until batch_flush, and be written while others are
- * being made. */
+/* The same of a frame, in the company of others: it may wait for them until batch_flush, and be written while others
+ * are being made. */
 int batch_add(batch *b, const char *environment, const char *output);
 int batch_flush(batch *b);
 
