@@ -87,7 +87,7 @@ baking()
     say "$name" "baked and traced; tracing took $trace_seconds s"
 }
 
-baking gallery 1200 800
+baking gallery 900 600
 ln -sf "$PREFENV_DATA/hdri/studio.exr" work/studio.exr
 baking turned 900 600
 

@@ -80,7 +80,8 @@ small_render()
         fig5a) size='+W160 +H80 -A' ;;
         fig5b | fig5c) size='+W160 +H133 +A0.1 -J' ;;
         fig6b | fig7a) size="$size Declare=Samples=1024" ;;
-        gallery | turned) size='+W192 +H128 +A0.1 -J' ;;
+        gallery) size='+W192 +H128 +A0.3 -J' ;;
+        turned) size='+W192 +H128 +A0.1 -J' ;;
         ten_lines) size='+W160 +H120 -A' ;;
         spheres) size='+W240 +H60 -A' ;;
         fig4) size='+W240 +H220 +A0.0 +AM1 +R2 -J Declare=Side=64 Declare=Picture_Side=128' ;;
@@ -150,9 +151,9 @@ small_render()
 small_bound()
 {
     case $1 in
-        workshop) echo 0.05 ;;
+        workshop | gallery) echo 0.05 ;;
         fig6b | fig7a | difference | teapot7) echo 0.02 ;;
-        fig6 | fig7 | readme | gallery | turned) echo 0.005 ;;
+        fig6 | fig7 | readme | turned) echo 0.005 ;;
         *) echo 0.002 ;;
     esac
 }

@@ -66,4 +66,40 @@ for words in "$corrected" "$traced"; do
             reflection { 0.8 prefiltered_environment { $looked_up } } } }"
 done
 
+# Smoke in a shell all around, seen in the surface: e^-0.5 of the wall is left.
+for words in "$corrected" "$traced"; do
+    shows "smoke before a wall, $words" 0.606531,0.606531,0.606531 1 "$words" '' \
+        'sphere { 0, 50 hollow pigment { rgb 1 } finish { ambient 0 emission 1 diffuse 0 } }
+        difference { sphere { 0, 40 } sphere { 0, 30 } hollow pigment { rgbt 1 }
+            interior { media { absorption 0.05 } } }'
+done
+
+# ---- animation ----
+
+# Two frames of a ball that moves by eight pixels while another stands still, and is not shown it.  What stands is the
+# same to the last bit, noise included; what is looked up moves with the ball, and so does its highlight.
+chart chart.hdr 64 32
+bake chart.hdr -o chart.exr --alpha 0.2 --normals 42 --size 24x24
+scene film.pov <<'END'
+camera { orthographic location -9*z direction z right 8*x up 4*y }
+light_source { <-30, 30, -40>, 0.2 parallel point_at 0 }
+#macro Ball(Rays, Place)
+    sphere { 0, 1 pigment { rgb 1 }
+        finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment {
+            #if (Rays) hdr "chart.hdr" roughness 0.2 samples 8 traced #else exr "chart.exr" #end highlight } } }
+        translate Place no_reflection no_shadow }
+#end
+Ball(off, <-1.5 - clock, 0, 0>)
+Ball(on, <2.5, 0, 0>)
+END
+render film.pov +W64 +H32 +FE +KFI1 +KFF2 +Ofilm.exr || note "$said"
+oiiotool film1.exr --cut 24x32+40+0 -o still1.exr
+oiiotool film2.exr --cut 24x32+40+0 -o still2.exr
+ok 'what stands still is the same in every frame, its noise too' "$PREFENV" diff still1.exr still2.exr --fail-above 0
+oiiotool film1.exr --cut 20x32+10+0 -o moved1.exr
+oiiotool film2.exr --cut 20x32+2+0 -o moved2.exr
+ok 'what moves does not flicker' "$PREFENV" diff moved1.exr moved2.exr --fail-above 0.0005
+note "$tap_output"
+fails '... and has moved' "$PREFENV" diff film1.exr film2.exr --fail-above 0.05
+
 done_testing

@@ -7,6 +7,9 @@
 
 chart chart.hdr 16 8
 bake chart.hdr -o maps.exr --alpha 0.3 --normals 12 --size 16x8
+"$PREFENV" surface blasted -o cut.exr --size 64x64 --quiet &&
+    "$PREFENV" ndf cut.exr -o cut.ndf.exr --wrap --quiet || bail_out 'cut.exr was not measured'
+bake chart.hdr -o measured.exr --ndf cut.ndf.exr --method representative --normals 12 --size 16x8
 echo 'not a picture' >text.exr
 head -c 2000 maps.exr >cut.exr
 : >empty.hdr
@@ -48,6 +51,15 @@ wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be
 wrong 'traced without samples' 'hdr "chart.hdr" roughness 0.1 traced' \
     'traced says that the directions of samples are traced: give their number, such as samples 64'
 wrong 'maps traced' 'exr "maps.exr" traced' 'This file holds maps baked for one roughness: remove .*traced'
+wrong 'a negative highlight' 'exr "maps.exr" highlight -1' \
+    'highlight must be on, off or an amount that is not negative, but -1 was given'
+wrong 'a highlight with what is no distribution' 'exr "measured.exr" highlight exr "maps.exr"' 'maps.exr'
+wrong 'a highlight of measured maps without their file' 'exr "measured.exr" highlight' \
+    'These maps are of a measured distribution, .*highlight exr "cut.ndf.exr"'
+wrong '... with a file for others' 'exr "maps.exr" highlight exr "cut.ndf.exr"' \
+    'highlight takes a file with maps of a measured distribution only'
+wrong '... and in the scene' 'hdr "chart.hdr" type exr "cut.ndf.exr" highlight exr "cut.ndf.exr"' \
+    'highlight takes a file with maps of a measured distribution only'
 wrong 'half a ray' 'hdr "chart.hdr" roughness 0.1 interreflection 1.5' \
     'interreflection must be a whole number of rays from 0 to 1000000, but 1.5 was given'
 wrong 'maps without their environment' 'exr "maps.exr" interreflection 8' \

@@ -98,6 +98,10 @@ sphere drawn 'roughness function { 0.4 } samples 300'
 sphere alone 'roughness 0.4 samples 300'
 same '... with a number of samples, too' drawn alone 0
 
+sphere zero 'roughness 0.2, 0.5 function { 0 } samples all'
+sphere nothing 'roughness 0.2, 0.5 function { sqrt(-1 - y * y) } samples all'
+same 'what is not a number counts as 0' nothing zero 0
+
 # ---- where it stands ----
 
 sphere texture "lambda function { 0.5 + 0.4 * x } $varying" 'rotate 90*z'
