@@ -146,8 +146,8 @@ if command -v cmgen oiiotool >/dev/null; then
     timed 2 cmgen --quiet --format=exr --size=$face --extract=cube --extract-blur=$roughness plain.exr
     cmgen_rate=$(ratio $texels "$wall_seconds")
     cmgen_cpu_rate=$(ratio $texels "$cpu_seconds")
-    # A third of cmgen's error, 6 %, is asked for; rates are those of whole commands, which both read plain.exr and write
-    # OpenEXR.
+    # A third of cmgen's error, 6 %, is asked for; rates are those of whole commands, which both read plain.exr and
+    # write OpenEXR.
     timed 5 "$PREFENV" bake plain.exr -o head-on.exr --method baseline --ndf ggx --alpha $alpha --size $map \
         --error 0.02 --quiet
     our_rate=$(ratio $((${map%x*} * ${map#*x})) "$wall_seconds")
