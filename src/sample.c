@@ -75,6 +75,31 @@ static void hide_below(const pe_maps *maps, const pe_view *view, double lambda, 
     pe_scale(pe_visible_share(exponent, pe_dot(view->n, view->r)), rgb, rgb);
 }
 
+static void sample_others(const pe_maps *maps, const pe_sampling *sampling, const pe_view *view, double roughness,
+                          double rgb[3])
+{
+    switch (maps->info.method) {
+    case PE_METHOD_DEFAULT:
+    case PE_METHOD_HEMISPHERES:
+        break;
+    case PE_METHOD_REPRESENTATIVE:
+    case PE_METHOD_BASELINE:
+        pe_sample_latlong(maps, sampling, view, rgb);
+        break;
+    case PE_METHOD_LAYERS:
+        pe_sample_layers(maps, view->r, fmin(fmax(roughness, 0), 1), rgb);
+        break;
+    case PE_METHOD_VOXELS:
+        pe_sample_voxels(maps, view->r, fmin(fmax(roughness, 0), 1), rgb);
+        break;
+    case PE_METHOD_GRADES:
+        pe_sample_grades(maps, sampling, view, roughness, rgb);
+        break;
+    }
+    if (sampling->horizon == PE_HORIZON_DARK && pe_method_has_lambda(maps->info.method))
+        hide_below(maps, view, fmin(fmax(roughness, 0), 1), rgb);
+}
+
 void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point *point, double rgb[3])
 {
     static const pe_sampling defaults = { PE_INTERPOLATION_DEFAULT, 0, PE_HORIZON_IGNORED };
@@ -85,25 +110,11 @@ void pe_sample(const pe_maps *maps, const pe_sampling *sampling, const pe_point 
     if (pe_dot(view.n, view.o) < 0)
         pe_scale(-1, view.n, view.n);
     pe_reflect(view.o, view.n, view.r);
-    switch (maps->info.method) {
-    case PE_METHOD_DEFAULT:
-    case PE_METHOD_HEMISPHERES:
-        pe_sample_hemispheres(maps, sampling ? sampling : &defaults, &view, rgb);
-        break;
-    case PE_METHOD_REPRESENTATIVE:
-    case PE_METHOD_BASELINE:
-        pe_sample_latlong(maps, sampling ? sampling : &defaults, &view, rgb);
-        break;
-    case PE_METHOD_LAYERS:
-        pe_sample_layers(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
-        break;
-    case PE_METHOD_VOXELS:
-        pe_sample_voxels(maps, view.r, fmin(fmax(point->roughness, 0), 1), rgb);
-        break;
-    case PE_METHOD_GRADES:
-        pe_sample_grades(maps, sampling ? sampling : &defaults, &view, point->roughness, rgb);
-        break;
-    }
-    if (sampling && sampling->horizon == PE_HORIZON_DARK && pe_method_has_lambda(maps->info.method))
-        hide_below(maps, &view, fmin(fmax(point->roughness, 0), 1), rgb);
+    sampling = sampling ? sampling : &defaults;
+    /* The usual maps first: the switch becomes a table of jumps, whose target a processor guesses from the branches
+     * before it; wrong, where views come in any order. */
+    if (maps->info.method == PE_METHOD_HEMISPHERES)
+        pe_sample_hemispheres(maps, sampling, &view, rgb);
+    else
+        sample_others(maps, sampling, &view, point->roughness, rgb);
 }
