@@ -128,10 +128,11 @@ small_render()
             cp difference.png voxels-b-0.difference.pixels.png
             render "$1.log" "$srcdir/scenes/$1.pov" "$1.png" $size +L.
             ;;
-        worn) # it bakes by itself, of a smaller environment
+        worn) # it bakes by itself, but for a brushed metal, of a smaller environment
             mkdir -p worn
             render worn.log "$srcdir/scenes/fig5a.pov" worn/environment.exr +W128 +H64 -A +L.
             cp teapot_mesh.inc worn/
+            small_bake worn/environment.exr worn/brushed.pe.exr --alpha 0.02-0.15 --aspect 0.33 --fast
             (cd worn && render worn.log "$srcdir/scenes/worn.pov" ../worn.png $size +L.)
             ;;
         teapot8) small_frame teapot8 png '+W128 +H96 -A' ;;

@@ -179,7 +179,7 @@ void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_i
 
 /* A smooth grade takes more memory for the same error.  Where all together have the least, this one's goes with this
  * power of alpha. */
-#define AIM_POWER (-0.5)
+#define AIM_POWER (-1.0)
 
 static int count_grades(const pe_maps_info *info, double aim)
 {

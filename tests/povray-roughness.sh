@@ -140,12 +140,44 @@ lambda='6.2 / (32 * sqrt(exp(4 * log(256) / (1 / (0.3 + 0.2 * y) ^ 2 - 1)) - 1))
 sphere alpha 'roughness function { 0.3 + 0.2 * y }'
 looked_up 'roughness as well: alpha, turned into lambda' alpha voxels.exr "$lambda" --horizon dark
 
+# ---- microfacets of many roughnesses ----
+
+bake chart.hdr -o grades.exr --alpha 0.15-0.6 --float
+file='exr "grades.exr"'
+sphere grades-even 'roughness 0.3'
+looked_up 'grades: one roughness' grades-even grades.exr 0.3
+sphere grades-function 'roughness function { 0.3 + 0.2 * y }'
+looked_up 'grades: a function' grades-function grades.exr '0.3 + 0.2 * y'
+sphere grades-beyond 'roughness function { 0.5 + y }'
+looked_up '... that goes beyond them' grades-beyond grades.exr '0.5 + y'
+sphere grades-beside 'roughness function { 0.3 + 0.2 * y } interreflection 8 hdr "chart.hdr"'
+same 'grades: interreflection changes nothing where there is nothing else' grades-beside grades-function 0
+file='hdr "chart.hdr"'
+sphere grades-truth 'roughness function { 0.3 + 0.2 * y } samples all'
+same 'grades: near to every texel summed up' grades-function grades-truth 0.03
+bake chart.hdr -o brushed.exr --alpha 0.15-0.6 --aspect 2 --ndf ggx --angles 8 --float
+file='exr "brushed.exr"'
+sphere grades-brushed "roughness 0.15, 0.6 pattern { $gradient } direction z"
+awk '{ print $0, 0.15 + 0.45 * ($2 / 4 + 0.5), 0, 0, 1 }' rays.txt | "$PREFENV" eval brushed.exr >wanted.txt
+ok 'grades of a brushed metal: along the brush as said, across it in proportion' \
+    "$rays" check grades-brushed.exr 3 1e-3 <wanted.txt && note "$tap_output"
+sphere grades-pair 'roughness 0.4, 0.2 direction z'
+awk '{ print $0, 0.4, 0, 0, 1 }' rays.txt | "$PREFENV" eval brushed.exr >wanted.txt
+ok '... two numbers in their proportion' "$rays" check grades-pair.exr 3 1e-3 <wanted.txt && note "$tap_output"
+sphere grades-range 'roughness 0.1, 0.5 pattern { checker }'
+like "$said" 'from 0.15 to 0.6 along the brush, which 0.1 to 0.5 goes beyond' \
+    '... and a range that it has not, warned of'
+
 file='hdr "chart.hdr"'
 sphere baked 'lambda function { 0.5 + 0.4 * y }'
-same 'a plain environment is baked in layers' baked layers-function 0.002
+same 'a plain environment is baked in layers for lambda' baked layers-function 0.002
+bake chart.hdr -o default.exr --method grades --float
 sphere alphas 'roughness function { 0.3 + 0.2 * y }'
-fails '... for roughness that varies, too' "$PREFENV" diff alphas.exr baked.exr --fail-above-relative 0.01
-like "$said" 'baking chart.hdr, for roughness that varies' '... and says so'
+like "$said" 'baking chart.hdr, for roughness that varies' '... in grades for a roughness that varies, and says so'
+looked_up '... and shows what a file would' alphas default.exr '0.3 + 0.2 * y'
+bake chart.hdr -o gold.exr --alpha 0.2-0.5 --ndf ggx --weight microfacet --material gold --float
+sphere golden "roughness 0.5, 0.2 pattern { $gradient } type 2 metallic \"gold\""
+looked_up '... of the two numbers, type and metal that are said' golden gold.exr '0.5 - 0.3 * (y / 4 + 0.5)'
 
 # ---- errors, each in line 5 ----
 
@@ -164,8 +196,13 @@ wrong 'a range out of range' \
 wrong 'lambda with some samples' 'hdr "chart.hdr" lambda 0.5 samples 20' \
     "Phong's lobe is not drawn from: write samples all"
 wrong 'lambda with a type' 'hdr "chart.hdr" lambda 0.5 type 2 samples all' \
-    'lambda, and roughness that varies .*remove type'
-wrong 'layers with a metal' 'hdr "chart.hdr" roughness pattern { bozo } metallic "gold"' 'lambda, and .*remove type'
+    "lambda is that of Phong's lobe .*remove type"
+wrong 'lambda with a metal' 'hdr "chart.hdr" lambda pattern { bozo } metallic "gold"' 'lambda is that .*remove type'
+wrong 'lambda of grades' 'exr "grades.exr" lambda 0.5' "lambda is that of Phong's lobe, but .* such as roughness 0.1"
+wrong 'grades, and no roughness' 'exr "grades.exr"' '.*say which the surface has, such as roughness 0.1\.'
+wrong 'grades with a type' 'exr "grades.exr" roughness 0.2 type 2' '.*maps of one kind of surface: remove samples, type'
+wrong 'grades of another shape' 'exr "brushed.exr" roughness 0.2, 0.4' '.*2 times as large along .* but 0.2, 0.4 was'
+wrong 'grades without shadows' 'exr "grades.exr" roughness 0.2 shadowless' 'shadowless lets light .* lambda'
 wrong 'shadowless microfacets' 'hdr "chart.hdr" roughness 0.5 samples all shadowless' 'shadowless lets light .* lambda'
 wrong 'maps of one roughness' 'exr "maps.exr" roughness function { x }' 'This file holds maps baked for one roughness'
 wrong 'maps with samples all' 'exr "maps.exr" samples all' 'This file holds maps baked for one roughness'
