@@ -6,17 +6,13 @@
 #include "check.h"
 #include "parallel.h"
 #include "prefenv.h"
-#include "sequence.h"
-#include "vector.h"
+#include "views.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #define VIEWS 3000
-#define COSINE_MIN 0.15
-
-static const double plus_y[3] = { 0, 1, 0 };
 
 typedef struct view {
     pe_point point;
@@ -29,31 +25,12 @@ typedef struct truth {
     view *views;
 } truth;
 
-/* Normals evenly over the sphere, viewers by solid angle times cosine, as many as a sphere shows. */
-static void place_view(int k, pe_point *point)
-{
-    static const double here[2] = { 0.5, 0.5 }, there[2] = { 0.3, 0.7 };
-    double a[2], b[2], z, radius2, up;
-    pe_frame frame;
-
-    pe_lattice_point(k, here, a);
-    pe_lattice_point(VIEWS * 7 + 13 * k, there, b);
-    z = 2 * a[0] - 1;
-    *point = (pe_point){ .n = { sqrt(1 - z * z) * cos(2 * M_PI * a[1]), z, sqrt(1 - z * z) * sin(2 * M_PI * a[1]) } };
-    radius2 = b[0] * (1 - COSINE_MIN * COSINE_MIN);
-    up = sqrt(1 - radius2);
-    pe_frame_make(point->n, plus_y, &frame);
-    pe_frame_direction(
-        &frame, (const double[3]){ sqrt(radius2) * cos(2 * M_PI * b[1]), sqrt(radius2) * sin(2 * M_PI * b[1]), up },
-        point->o);
-}
-
 static void find_truth(size_t k, void *data)
 {
     const truth *t = data;
     view *v = &t->views[k];
 
-    place_view((int)k, &v->point);
+    place_view((int)k, VIEWS, &v->point);
     pe_exact(t->env, t->surface, plus_y, v->point.n, v->point.o, v->exact);
 }
 

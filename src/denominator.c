@@ -40,6 +40,15 @@ static double weigh(const double h[3], const double o[3])
     return o_h > 0 && 2 * o_h * h[2] > o[2] ? 4 * o_h / h[2] : 0;
 }
 
+/* Of a distribution that leans to one side there are viewers who see no normal at all: nothing is reflected there,
+ * which is what remains of anything over this. */
+#define WEIGHT_MIN 1e-6
+
+static double divisor(double weight)
+{
+    return weight > WEIGHT_MIN ? weight : (double)INFINITY;
+}
+
 static double mean_weight(const direction *h, const double o[3])
 {
     double sum = 0;
@@ -72,7 +81,7 @@ double pe_denominator_of(const pe_ndf *ndf, const double o[3])
     direction h[NORMALS];
 
     draw(ndf, h);
-    return mean_weight(h, o);
+    return divisor(mean_weight(h, o));
 }
 
 /* a^2 goes around as that of an ellipse, which it is for distributions that are stretched. */
@@ -83,11 +92,19 @@ static double approximate(const pe_denominator *denominator, const double o[3])
     return 2 * (o[2] + sqrt(o[2] * o[2] + x * x + y * y));
 }
 
+/* Half of what viewers at the horizon see from either side, who may see nothing. */
+static double at_horizon(const direction *h, double x, double y)
+{
+    double here = mean_weight(h, (const double[3]){ x, y, 0 }), there = mean_weight(h, (const double[3]){ -x, -y, 0 });
+
+    return fmax((here + there) / 4, WEIGHT_MIN);
+}
+
 /* Texels beyond the horizon carry on with the horizon's. */
 static void fill(const direction *h, pe_denominator *denominator)
 {
-    denominator->along = mean_weight(h, (const double[3]){ 1, 0, 0 }) / 2;
-    denominator->across = mean_weight(h, (const double[3]){ 0, 1, 0 }) / 2;
+    denominator->along = at_horizon(h, 1, 0);
+    denominator->across = at_horizon(h, 0, 1);
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             double o[3] = { 0, 0, 1 };
@@ -140,7 +157,7 @@ double pe_denominator_at(const pe_denominator *denominator, const double o[3])
         for (int i = 0; i < 4; i++)
             sum += (double)(taps.down[j] * taps.across[i] *
                             denominator->coefficients[(taps.y + j - 1) * SIDE + taps.x + i - 1]);
-    return sum * approximate(denominator, o);
+    return divisor(sum * approximate(denominator, o));
 }
 
 double pe_denominator_farthest(const pe_denominator *denominator)

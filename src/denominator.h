@@ -12,7 +12,8 @@ typedef struct pe_denominator pe_denominator;
 pe_status pe_denominator_make(const pe_ndf *ndf, pe_denominator **out, pe_error *error);
 void pe_denominator_free(pe_denominator *denominator); /* NULL is allowed */
 
-/* W(o), o unit and above the horizon of the tangent frame. */
+/* W(o), o unit and above the horizon of the tangent frame; INFINITY where o sees no normal, so that nothing is left of
+ * what is divided by it. */
 double pe_denominator_at(const pe_denominator *denominator, const double o[3]);
 
 /* The same without a table, in some tens of microseconds: for surfaces that are met once. */

@@ -13,7 +13,7 @@
  * :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold
  * and :lost; of grades :grades, :alphaMax, :lookupError, :angles, :suns, :turn, the suns, and, in each grade's first
  * part, :grade.alphaX, :grade.alphaY, :grade.normals, :grade.width, :grade.height, :grade.poleAngles,
- * :grade.poleCosine and :grade.lookupError. */
+ * :grade.poleCosine and :grade.lookupError; the two alphas are for people, and follow from the first part's. */
 #ifndef PE_MAPS_FILE_H
 #define PE_MAPS_FILE_H
 

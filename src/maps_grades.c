@@ -162,7 +162,7 @@ const pe_maps *pe_grades_find(const pe_maps *maps, int *k)
 
 const pe_maps *pe_maps_grade(const pe_maps *maps, int k)
 {
-    return maps->grades ? maps->grades[k] : NULL;
+    return maps->grades && k >= 0 && k < maps->info.grades ? maps->grades[k] : NULL;
 }
 
 void pe_maps_surface(const pe_maps *maps, double roughness, pe_surface *surface)

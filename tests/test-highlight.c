@@ -13,23 +13,33 @@ enum { WIDTH = 256, HEIGHT = 128 };
 static const double brush[3] = { 0.3, 1, -0.2 }, n[3] = { 0.48, 0.6, 0.64 };
 static const double lowest = 0.15; /* o.n of the viewers */
 
-/* Two ridges, so that it is neither a Beckmann nor symmetric; its mean slope is 0. */
-static pe_ndf_table *make_table(void)
+enum { CELLS = 64 };
+
+static pe_ndf_table *make_table(double (*density_of)(double p, double q))
 {
-    enum { CELLS = 64 };
     static const double range[2] = { -1.2, 1.2 };
     static float density[CELLS * CELLS];
     pe_ndf_table *table;
 
     for (int k = 0; k < CELLS * CELLS; k++) {
         int row = k / CELLS;
-        double p = 2.4 * (k % CELLS + 0.5) / CELLS - 1.2, q = 2.4 * (row + 0.5) / CELLS - 1.2;
 
-        density[k] =
-            (float)(2 * exp(-30 * (p * p + (q - 0.2) * (q - 0.2))) + exp(-20 * (p * p + (q + 0.4) * (q + 0.4))));
+        density[k] = (float)density_of(2.4 * (k % CELLS + 0.5) / CELLS - 1.2, 2.4 * (row + 0.5) / CELLS - 1.2);
     }
     need(pe_ndf_table_create(CELLS, CELLS, range, range, density, &table, NULL) == PE_OK, "no table");
     return table;
+}
+
+/* Two ridges, so that it is neither a Beckmann nor symmetric; its mean slope is 0. */
+static double two_ridges(double p, double q)
+{
+    return 2 * exp(-30 * (p * p + (q - 0.2) * (q - 0.2))) + exp(-20 * (p * p + (q + 0.4) * (q + 0.4)));
+}
+
+/* A surface that leans, all of it, so that low viewers from one side see none of it. */
+static double one_side(double p, double q)
+{
+    return exp(-400 * ((p + 0.5) * (p + 0.5) + (q + 0.5) * (q + 0.5)));
 }
 
 /* One of many viewers, spread evenly over the part of the hemisphere above `lowest`. */
@@ -226,16 +236,46 @@ static void arguments_are_any(void)
     pe_highlights_free(NULL);
 }
 
+/* What leans has highlights that are light, and seen from above white ones. */
+static void leaning_is_finite(void)
+{
+    pe_ndf_table *table = make_table(one_side);
+    const pe_surface surface = { .ndf = { PE_NDF_TABLE, 0, 0, table } };
+    pe_highlights *highlights = NULL;
+    double white;
+    int wrong = 0;
+    pe_error error;
+
+    need(pe_highlights_make(&surface, &highlights, &error) == PE_OK, "%s", error.message);
+    for (int k = 0; k < 4000; k++) {
+        double z = fmod(0.5 + k * 0.61803398875, 1), sine = sqrt(1 - z * z), got[3], once[3];
+        const double up[3] = { 0, 1, 0 }, o[3] = { sine * cos(2.4 * k), z, sine * sin(2.4 * k) };
+        const double *light = lamps[k % LAMPS].direction;
+
+        pe_highlight(highlights, brush, up, o, light, got);
+        pe_highlight_once(&surface, brush, up, o, light, once);
+        for (int c = 0; c < 3; c++)
+            wrong += !(got[c] >= 0 && isfinite(got[c]) && once[c] >= 0 && isfinite(once[c]));
+    }
+    white = gather(highlights, n);
+    ok(wrong == 0, "a surface that leans: highlights are finite and not negative");
+    ok(fabs(white - 1) < 0.01, "... and, seen from above, light from everywhere adds up");
+    note("to %.4f", white);
+    pe_highlights_free(highlights);
+    pe_ndf_table_free(table);
+}
+
 int main(void)
 {
     static const int places[LAMPS][2] = { { 32, 40 }, { 10, 30 }, { 60, 70 }, { 160, 90 } };
-    pe_ndf_table *table = make_table();
+    pe_ndf_table *table = make_table(two_ridges);
 
     for (int k = 0; k < LAMPS; k++)
         lamps[k] = make_lamp(places[k][0], places[k][1]);
     microfacets_follow(table);
     lobes_follow();
     arguments_are_any();
+    leaning_is_finite();
     for (int k = 0; k < LAMPS; k++)
         pe_env_free(lamps[k].env);
     pe_ndf_table_free(table);

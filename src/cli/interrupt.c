@@ -5,14 +5,20 @@
 #include <stddef.h>
 #include <sys/stat.h>
 
+static const int signals[] = { SIGINT, SIGTERM, SIGHUP };
+
+/* Those that would end the command: an ignored one would be pending all the same while it is blocked. */
 static sigset_t waiting(void)
 {
     sigset_t set;
 
     sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGHUP);
+    for (size_t k = 0; k < sizeof signals / sizeof *signals; k++) {
+        struct sigaction now;
+
+        if (sigaction(signals[k], NULL, &now) == 0 && now.sa_handler != SIG_IGN)
+            sigaddset(&set, signals[k]);
+    }
     return set;
 }
 
@@ -34,13 +40,13 @@ void interrupt_release(void)
 
 int interrupt_waits(void)
 {
-    const int signals[] = { SIGINT, SIGTERM, SIGHUP };
-    sigset_t held, pending;
+    sigset_t set = waiting(), held, pending;
     int waits = 0;
 
     if (pthread_sigmask(SIG_SETMASK, NULL, &held) != 0 || sigpending(&pending) != 0)
         return 0;
     for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)
-        waits |= sigismember(&held, signals[k]) == 1 && sigismember(&pending, signals[k]) == 1;
+        waits |= sigismember(&set, signals[k]) == 1 && sigismember(&held, signals[k]) == 1 &&
+                 sigismember(&pending, signals[k]) == 1;
     return waits;
 }
