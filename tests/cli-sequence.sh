@@ -177,6 +177,16 @@ for file in many/*.pe.exr; do
     "$PREFENV" info "$file" >/dev/null || whole=0
 done
 is "$whole $(find many -name '.*' -type f)" "1 " "each is whole, and nothing else is left"
+# As under nohup: what is ignored is pending all the same while signals wait.
+(
+    trap '' HUP
+    exec "$PREFENV" bake many/%d.exr -o many/ignored_%d.exr --frames 1-12 --quiet --exact --normals 42 --size 20x20
+) &
+pid=$!
+sleep 0.5
+while kill -HUP $pid 2>/dev/null; do sleep 0.05; done
+wait $pid
+is "$? $(find many -name 'ignored_*.exr' | wc -l)" "0 12" "a signal that is ignored ends nothing"
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     bake="timeout -s TERM 4 '$PREFENV' bake many/%d.exr -o many/%d.pe.exr --force --frames 1-400 $slow"
     drawn=$(TERM=xterm script -qec "$bake" /dev/null </dev/null | tr '\r' '\n')
