@@ -19,7 +19,8 @@ for patch in $series; do
     grep -Eq '^Signed-off-by: .+ <.+>$' <<<"$head" || wrong+=' no "Signed-off-by:";'
     [ "$(grep -Evc '^(Subject|Upstream|Signed-off-by):|^---$|^$' <<<"$head")" -ge 3 ] || wrong+=' no reason given;'
     ! grep -q '.\{121\}' <<<"$head" || wrong+=' a line of the header is longer than 120;'
-    ! grep -Eq '^diff --git .*\.(orig|rej|bak)$|^diff --git .*~$' "$patches/$patch" || wrong+=' it has a backup file in it;'
+    ! grep -Eq '^diff --git .*\.(orig|rej|bak)$|^diff --git .*~$' "$patches/$patch" ||
+        wrong+=' it has a backup file in it;'
     is "$wrong" '' "$patch has its header, and no more than it needs"
 done
 
