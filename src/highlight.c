@@ -47,30 +47,20 @@ void pe_highlights_free(pe_highlights *highlights)
     free(highlights);
 }
 
-/* D(h) of a light, with PE_WEIGHT_MICROFACET times G2 F / (4 o.n); 0 if the light is below
- * the horizon. */
+/* The weight of a light, times F, and with PE_WEIGHT_MICROFACET over 4 (o.n), so that nothing is left to divide by.
+ * 0 if the light is below the horizon. */
 static double reflect(const pe_surface *surface, const pe_viewer *v, const double light[3], double rgb[3])
 {
-    double world[3], w[3], h[3], d;
+    double world[3], w[3], weight;
 
     pe_normalize_any(light, world);
     pe_frame_coordinates(&v->frame, world, w);
     rgb[0] = rgb[1] = rgb[2] = 0;
     if (!(w[2] > PE_HORIZON))
         return 0;
-    for (int c = 0; c < 3; c++)
-        h[c] = v->o[c] + w[c];
-    if (!(pe_ndf_exponent(&surface->ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
-        return 0;
-    pe_normalize(h, h);
-    d = pe_ndf_evaluate(&surface->ndf, h);
-    if (surface->weight == PE_WEIGHT_MICROFACET)
-        d /= (1 + v->lambda + pe_ndf_lambda(&surface->ndf, w)) * 4 * v->o[2];
-    for (int c = 0; c < 3; c++)
-        rgb[c] = surface->weight == PE_WEIGHT_MICROFACET
-                     ? d * pe_reflectance(surface->eta[c], surface->k[c], pe_dot(v->o, h))
-                     : d;
-    return d;
+    weight = pe_viewer_weight(surface, v, w, rgb);
+    pe_scale(surface->weight == PE_WEIGHT_MICROFACET ? weight / (4 * v->o[2]) : weight, rgb, rgb);
+    return weight;
 }
 
 void pe_highlight(const pe_highlights *highlights, const double direction[3], const double n[3], const double o[3],

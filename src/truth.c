@@ -1,6 +1,5 @@
 /* truth.c - the slow exact answers: every texel in double precision, and Monte Carlo. [Motegi Eq. 4] */
 #include "env.h"
-#include "filter.h"
 #include "ndf.h"
 #include "prefenv.h"
 #include "sequence.h"
@@ -19,37 +18,20 @@ static void mirror(const pe_env *env, const pe_surface *surface, const pe_viewer
         rgb[c] *= pe_reflectance(surface->eta[c], surface->k[c], v->o[2]);
 }
 
-/* The weight of the light w, and its reflectance; both in tangent coordinates and above the surface.  D, up to the
- * factor that cancels, and with PE_WEIGHT_MICROFACET times G2. */
-static double lobe_weight(const pe_surface *surface, const pe_viewer *v, const double w[3], double reflectance[3])
-{
-    double h[3] = { v->o[0] + w[0], v->o[1] + w[1], v->o[2] + w[2] }, d;
-
-    if (!(pe_ndf_exponent(&surface->ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
-        return 0;
-    pe_normalize(h, h);
-    d = pe_ndf_evaluate(&surface->ndf, h);
-    if (surface->weight == PE_WEIGHT_NDF || !(d > 0))
-        return d;
-    for (int c = 0; c < 3; c++)
-        reflectance[c] = pe_reflectance(surface->eta[c], surface->k[c], pe_dot(v->o, h));
-    return d / (1 + v->lambda + pe_ndf_lambda(&surface->ndf, w));
-}
-
 /* Adds one row of texels to sums: weight, red, green, blue. */
 static void add_row(const pe_env *env, const pe_surface *surface, const pe_viewer *v, int y, double sums[4])
 {
     const float *texel = env->rgb + 3 * (size_t)y * (size_t)env->width;
 
     for (int x = 0; x < env->width; x++, texel += 3) {
-        double world[3], w[3], weight, reflectance[3] = { 1, 1, 1 };
+        double world[3], w[3], weight, reflectance[3];
 
         pe_grid_direction(&env->grid, x, y, world);
         w[2] = pe_dot(v->frame.n, world);
         if (!(w[2] > PE_HORIZON))
             continue;
         pe_frame_coordinates(&v->frame, world, w);
-        weight = lobe_weight(surface, v, w, reflectance) * env->grid.solid_angle_sr[y];
+        weight = pe_viewer_weight(surface, v, w, reflectance) * env->grid.solid_angle_sr[y];
         sums[0] += weight;
         for (int c = 0; c < 3; c++)
             sums[c + 1] += weight * reflectance[c] * (double)texel[c];

@@ -27,6 +27,22 @@ void pe_viewer_make(const pe_surface *surface, const double direction[3], const 
     }
 }
 
+double pe_viewer_weight(const pe_surface *surface, const pe_viewer *v, const double w[3], double reflectance[3])
+{
+    double h[3] = { v->o[0] + w[0], v->o[1] + w[1], v->o[2] + w[2] }, d;
+
+    reflectance[0] = reflectance[1] = reflectance[2] = 1;
+    if (!(pe_ndf_exponent(&surface->ndf, h[0] / h[2], h[1] / h[2]) <= PE_LOBE_CUTOFF))
+        return 0;
+    pe_normalize(h, h);
+    d = pe_ndf_evaluate(&surface->ndf, h);
+    if (surface->weight == PE_WEIGHT_NDF || !(d > 0))
+        return d;
+    for (int c = 0; c < 3; c++)
+        reflectance[c] = pe_reflectance(surface->eta[c], surface->k[c], pe_dot(v->o, h));
+    return d / (1 + v->lambda + pe_ndf_lambda(&surface->ndf, w));
+}
+
 void pe_viewer_offsets(const double a[3], const double b[3], double offsets[2])
 {
     uint64_t state = 0;
