@@ -15,7 +15,6 @@
 #include "suns.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* What one bake shares. */
 typedef struct job {
@@ -281,30 +280,38 @@ static void choose_alphas(pe_maps_info *info)
     }
 }
 
+pe_maps_info pe_describe_bake(const pe_bake_options *options, int width, int height)
+{
+    const double *d = options->direction;
+    pe_maps_info info = { .method = options->method ? options->method : PE_METHOD_HEMISPHERES,
+                          .surface = options->surface,
+                          .direction = { d[0], d[1], d[2] },
+                          .normals = options->normals,
+                          .angles = options->angles ? options->angles : 1,
+                          .width = options->width,
+                          .height = options->height,
+                          .source_name = "",
+                          .ndf_name = "",
+                          .source_width = width,
+                          .source_height = height,
+                          .accuracy = pe_choose_accuracy(options->accuracy, width, height),
+                          .error_wanted = pe_wanted_error(options) };
+
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0)
+        info.direction[1] = 1;
+    return info;
+}
+
 static pe_status choose_info(const pe_bake_options *options, double aim, int width, int height, pe_maps_info *info,
                              pe_error *error)
 {
-    static const double plus_y[3] = { 0, 1, 0 };
-    const double *d = options->direction;
     pe_status status;
 
-    *info = (pe_maps_info){ .method = options->method ? options->method : PE_METHOD_HEMISPHERES,
-                            .surface = options->surface,
-                            .normals = options->normals,
-                            .angles = options->angles ? options->angles : 1,
-                            .width = options->width,
-                            .height = options->height,
-                            .source_name = "",
-                            .ndf_name = "",
-                            .source_width = width,
-                            .source_height = height,
-                            .accuracy = pe_choose_accuracy(options->accuracy, width, height),
-                            .error_wanted = pe_wanted_error(options) };
+    *info = pe_describe_bake(options, width, height);
     choose_alphas(info);
     status = pe_surface_check(&info->surface, error);
     if (status != PE_OK)
         return status;
-    memcpy(info->direction, d[0] == 0 && d[1] == 0 && d[2] == 0 ? plus_y : d, sizeof info->direction);
     if (info->method == PE_METHOD_HEMISPHERES)
         pe_choose_hemispheres(options, aim, info);
     info->normals = info->normals ? info->normals : 42;

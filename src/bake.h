@@ -18,6 +18,10 @@ struct pe_baker {
     pe_baker **grades;         /* of info.grades, which have them and nothing else; NULL for others */
 };
 
+/* What options say of maps and of the environment, and what they leave out that is the same for every method: the
+ * brush's direction, angles, accuracy and error. */
+pe_maps_info pe_describe_bake(const pe_bake_options *options, int width, int height);
+
 /* A part of a bake, of the whole that the caller is told of. */
 typedef struct pe_stage {
     const pe_bake_options *options;

@@ -6,28 +6,12 @@
 #include "status.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static pe_maps_info describe(const pe_bake_options *options, int width, int height)
 {
-    const double *d = options->direction;
-    pe_maps_info info = { .method = PE_METHOD_GRADES,
-                          .surface = options->surface,
-                          .direction = { d[0], d[1], d[2] },
-                          .normals = options->normals,
-                          .angles = options->angles ? options->angles : 1,
-                          .width = options->width,
-                          .height = options->height,
-                          .alpha_max = options->alpha_max == 0 ? PE_GRADES_ALPHA_MAX : options->alpha_max,
-                          .source_name = "",
-                          .ndf_name = "",
-                          .source_width = width,
-                          .source_height = height,
-                          .accuracy = pe_choose_accuracy(options->accuracy, width, height),
-                          .error_wanted = pe_wanted_error(options) };
+    pe_maps_info info = pe_describe_bake(options, width, height);
 
-    if (d[0] == 0 && d[1] == 0 && d[2] == 0)
-        info.direction[1] = 1;
+    info.alpha_max = options->alpha_max == 0 ? PE_GRADES_ALPHA_MAX : options->alpha_max;
     if (info.surface.ndf.alpha_x == 0 && info.surface.ndf.alpha_y == 0)
         info.surface.ndf.alpha_x = info.surface.ndf.alpha_y = PE_GRADES_ALPHA_MIN;
     return info;
@@ -143,7 +127,7 @@ static pe_status draw_out_suns(job *j, pe_suns *suns, pe_error *error)
         return status;
     env = j->shrunk ? j->shrunk : j->env;
     texel = 2 * M_PI / env->width;
-    surface.ndf = pe_grades_ndf(info, texel * 1.001 * fmax(ndf->alpha_x / ndf->alpha_y, 1));
+    surface.ndf = pe_grades_ndf(ndf, info->alpha_max, texel * 1.001 * fmax(ndf->alpha_x / ndf->alpha_y, 1));
     return pe_suns_draw_out(env, j->env, &surface, suns, &j->rest, error);
 }
 

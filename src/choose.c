@@ -200,7 +200,7 @@ static double plan_grades(const pe_bake_options *options, double aim, pe_maps_in
         plan best;
 
         each[k] = *info;
-        each[k].surface.ndf = pe_grades_ndf(info, alpha);
+        each[k].surface.ndf = pe_grades_ndf(&info->surface.ndf, info->alpha_max, alpha);
         best = best_plan(&each[k], aim * pow(alpha / middle, AIM_POWER), INFINITY);
         take_plan(&best, &each[k]);
         bytes += best.bytes;

@@ -57,22 +57,28 @@ static pe_status check_direction(const double d[3], pe_error *error)
     return PE_OK;
 }
 
-static int have_angles(const pe_maps_info *info)
+/* In whose frames brush angles turn, and whose pictures are discs. */
+static int are_hemispheres(const pe_maps_info *info)
 {
     return info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_GRADES;
+}
+
+static int have_normals(const pe_maps_info *info)
+{
+    return are_hemispheres(info) || info->method == PE_METHOD_REPRESENTATIVE;
 }
 
 static pe_status check_angles(const pe_maps_info *info, pe_error *error)
 {
     if (info->pole_angles &&
-        (!have_angles(info) || info->angles != 1 || info->pole_angles < PE_MAPS_ANGLES_MIN ||
+        (!are_hemispheres(info) || info->angles != 1 || info->pole_angles < PE_MAPS_ANGLES_MIN ||
          info->pole_angles > PE_MAPS_ANGLES_MAX || !(info->pole_cosine > 0 && info->pole_cosine < 1)))
         return pe_fail(error, PE_ERROR_ARGUMENT,
                        "%d angles at normals within a cosine of %g of the brush direction are out of range",
                        info->pole_angles, info->pole_cosine);
     if (info->angles == 1)
         return PE_OK;
-    if (!have_angles(info))
+    if (!are_hemispheres(info))
         return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d: only hemispheres can have more than 1", info->angles);
     if (info->angles < PE_MAPS_ANGLES_MIN || info->angles > PE_MAPS_ANGLES_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "angles %d is out of range; give 1, or %d to %d", info->angles,
@@ -94,7 +100,7 @@ size_t pe_maps_stored_texels(const pe_maps_info *info)
 
 static pe_status check_size(const pe_maps_info *info, pe_error *error)
 {
-    int least = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_GRADES ? PE_DISC_SIDE_MIN : 2;
+    int least = are_hemispheres(info) ? PE_DISC_SIDE_MIN : 2;
 
     if (info->width < least || info->height < least || info->width > PE_MAPS_SIDE_MAX ||
         info->height > PE_MAPS_SIDE_MAX)
@@ -120,8 +126,7 @@ static pe_status count_hemispheres(pe_maps_info *info, pe_error *error)
 
 static pe_status count_images(pe_maps_info *info, pe_error *error)
 {
-    if (info->method != PE_METHOD_HEMISPHERES && info->method != PE_METHOD_REPRESENTATIVE &&
-        info->method != PE_METHOD_GRADES)
+    if (!have_normals(info))
         info->normals = 0;
     info->frequency = pe_geodesic_frequency(info->normals);
     switch (info->method) {
@@ -177,8 +182,7 @@ pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
     status = check_direction(info->direction, error);
     if (status == PE_OK)
         status = check_angles(info, error);
-    if (status == PE_OK && (info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_REPRESENTATIVE ||
-                            info->method == PE_METHOD_GRADES))
+    if (status == PE_OK && have_normals(info))
         status = check_normals(info->normals, error);
     if (status == PE_OK && info->method == PE_METHOD_GRADES)
         status = pe_grades_check(info, error);

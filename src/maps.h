@@ -82,8 +82,9 @@ void pe_layers_free(pe_maps *maps);
 #define PE_GRADES_MIN 4
 #define PE_GRADES_MAX 32
 
-/* The distribution of a roughness, alpha_x, of grades; what is out of range is as the nearer end. */
-pe_ndf pe_grades_ndf(const pe_maps_info *info, double alpha);
+/* The distribution of a roughness, alpha_x, of grades from the smoothest to alpha_max; what is out of range is as the
+ * nearer end. */
+pe_ndf pe_grades_ndf(const pe_ndf *smoothest, double alpha_max, double alpha);
 
 /* Where that lies among the grades, from 0 to the last; and the roughness at a place. */
 double pe_grades_place(const pe_maps_info *info, double alpha);

@@ -26,10 +26,10 @@ double pe_grades_alpha(const pe_maps_info *info, double place)
     return info->surface.ndf.alpha_x * pow(range_of(info), place / (info->grades - 1));
 }
 
-pe_ndf pe_grades_ndf(const pe_maps_info *info, double alpha)
+pe_ndf pe_grades_ndf(const pe_ndf *smoothest, double alpha_max, double alpha)
 {
-    pe_ndf ndf = info->surface.ndf;
-    double factor = fmin(fmax(alpha / ndf.alpha_x, 1), range_of(info));
+    pe_ndf ndf = *smoothest;
+    double factor = fmin(fmax(alpha / ndf.alpha_x, 1), alpha_max / ndf.alpha_x);
 
     ndf.alpha_x *= factor;
     ndf.alpha_y *= factor;
@@ -61,7 +61,7 @@ static pe_status complete_grade(const pe_maps_info *info, int k, const pe_maps_i
 {
     *grade = *info;
     grade->method = PE_METHOD_HEMISPHERES;
-    grade->surface.ndf = pe_grades_ndf(info, pe_grades_alpha(info, k));
+    grade->surface.ndf = pe_grades_ndf(&info->surface.ndf, info->alpha_max, pe_grades_alpha(info, k));
     grade->grades = 0;
     grade->alpha_max = 0;
     grade->normals = its->normals;
@@ -169,5 +169,5 @@ void pe_maps_surface(const pe_maps *maps, double roughness, pe_surface *surface)
 {
     *surface = maps->info.surface;
     if (maps->grades)
-        surface->ndf = pe_grades_ndf(&maps->info, roughness);
+        surface->ndf = pe_grades_ndf(&maps->info.surface.ndf, maps->info.alpha_max, roughness);
 }

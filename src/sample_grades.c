@@ -8,9 +8,9 @@
 static void add_suns(const pe_maps *maps, const pe_view *view, double alpha, const pe_denominators *denominators,
                      double rgb[3])
 {
-    pe_surface surface = maps->info.surface;
+    pe_surface surface;
 
-    surface.ndf = pe_grades_ndf(&maps->info, alpha);
+    pe_maps_surface(maps, alpha, &surface);
     pe_suns_add(&maps->suns, &surface, denominators, view->direction ? view->direction : maps->info.direction, view->n,
                 view->o, rgb);
 }

@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "lines.h"
+#include "maps.h"
 #include "prefenv.h"
 #include "reflectance.h"
 #include "vector.h"
@@ -73,11 +74,9 @@ static void sum_up(const pe_point *point, const void *data, double rgb[3])
 static void sum_up_rough(const pe_point *point, const void *data, double rgb[3])
 {
     const truth *t = data;
-    double factor = fmin(fmax(point->roughness, t->surface.ndf.alpha_x), t->alpha_max) / t->surface.ndf.alpha_x;
     pe_surface surface = t->surface;
 
-    surface.ndf.alpha_x *= factor;
-    surface.ndf.alpha_y *= factor;
+    surface.ndf = pe_grades_ndf(&t->surface.ndf, t->alpha_max, point->roughness);
     pe_exact(t->env, &surface, point->direction ? point->direction : t->direction, point->n, point->o, rgb);
 }
 
