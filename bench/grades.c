@@ -13,11 +13,6 @@
 #define ALPHA_MAX 0.5
 #define BANDS 6
 
-typedef struct view {
-    pe_point point;
-    double exact[3];
-} view;
-
 typedef struct band {
     const pe_env *env;
     double alpha, aspect, width; /* roughnesses from alpha / sqrt(width) to alpha * sqrt(width) */

@@ -14,11 +14,6 @@
 
 #define VIEWS 3000
 
-typedef struct view {
-    pe_point point;
-    double exact[3];
-} view;
-
 typedef struct truth {
     const pe_env *env;
     const pe_surface *surface;

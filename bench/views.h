@@ -12,6 +12,11 @@
 
 static const double plus_y[3] = { 0, 1, 0 };
 
+typedef struct view {
+    pe_point point;
+    double exact[3]; /* the truth */
+} view;
+
 /* View k of so many: normals evenly over the sphere, viewers by solid angle times cosine, as many as a sphere shows. */
 static inline void place_view(int k, int views, pe_point *point)
 {

@@ -35,71 +35,64 @@ static void load_file(const char *path, seed *s)
     need(s->size > 0 && s->size < sizeof s->bytes, "%s has %zu bytes", path, s->size);
 }
 
-static void seed_maps(seed *s, pe_pixel_type type)
+/* The file of maps baked from width x width / 2 texels, which are freed; returns how many suns they have. */
+static int bake_seed(seed *s, float *rgb, int width, const pe_bake_options *options, pe_pixel_type type)
 {
     char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
-    float *rgb = reference_noise(16, 8, 1);
-    pe_bake_options options = {
-        .normals = 12, .width = 8, .height = 8, .surface.ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL }
-    };
     pe_env *env;
     pe_maps *maps = NULL;
+    pe_error error = { PE_OK, "" };
+    int suns;
 
     close(mkstemp(path));
-    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
-             pe_maps_write(maps, path, type, NULL) == PE_OK,
-         "cannot make maps");
+    need(pe_env_create(width, width / 2, rgb, &env, &error) == PE_OK && pe_bake(env, options, &maps, &error) == PE_OK &&
+             pe_maps_write(maps, path, type, &error) == PE_OK,
+         "cannot make maps: %s", error.message);
     load_file(path, s);
+    suns = pe_maps_get_info(maps)->suns;
     pe_maps_free(maps);
     pe_env_free(env);
     free(rgb);
+    return suns;
+}
+
+static float *noise_with_sun(unsigned seed)
+{
+    float *rgb = reference_noise(48, 24, seed);
+
+    rgb[3 * (9 * 48 + 20)] = 30000;
+    return rgb;
+}
+
+static void seed_maps(seed *s, pe_pixel_type type)
+{
+    pe_bake_options options = {
+        .normals = 12, .width = 8, .height = 8, .surface.ndf = { PE_NDF_BECKMANN, 0.5, 0.5, NULL }
+    };
+
+    bake_seed(s, reference_noise(16, 8, 1), 16, &options, type);
 }
 
 /* A sun and four brush angles. */
 static void seed_angles(seed *s)
 {
-    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
-    float *rgb = reference_noise(48, 24, 4);
     pe_bake_options options = {
         .normals = 12, .width = 8, .height = 9, .angles = 4, .surface.ndf = { PE_NDF_GGX, 0.5, 0.3, NULL }
     };
-    pe_env *env;
-    pe_maps *maps = NULL;
 
-    rgb[3 * (9 * 48 + 20)] = 30000;
-    close(mkstemp(path));
-    need(pe_env_create(48, 24, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
-             pe_maps_get_info(maps)->suns == 1 && pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
-         "cannot make maps with a sun and angles");
-    load_file(path, s);
-    pe_maps_free(maps);
-    pe_env_free(env);
-    free(rgb);
+    need(bake_seed(s, noise_with_sun(4), 48, &options, PE_PIXEL_HALF) == 1, "angles without their sun");
 }
 
 static void seed_roughness(seed *s, pe_method method)
 {
-    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
-    float *rgb = reference_noise(16, 8, 6);
     pe_bake_options options = { .method = method, .smoothness.size = 8, .layers = 4, .width = 32 };
-    pe_env *env;
-    pe_maps *maps = NULL;
 
-    close(mkstemp(path));
-    need(pe_env_create(16, 8, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
-             pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
-         "cannot make maps of many roughnesses");
-    load_file(path, s);
-    pe_maps_free(maps);
-    pe_env_free(env);
-    free(rgb);
+    bake_seed(s, reference_noise(16, 8, 6), 16, &options, PE_PIXEL_HALF);
 }
 
 /* Grades, and a sun. */
 static void seed_grades(seed *s)
 {
-    char path[] = "/tmp/prefenv-test-fuzz-XXXXXX";
-    float *rgb = reference_noise(48, 24, 7);
     pe_bake_options options = { .method = PE_METHOD_GRADES,
                                 .normals = 12,
                                 .width = 8,
@@ -107,18 +100,8 @@ static void seed_grades(seed *s)
                                 .layers = 4,
                                 .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.2, NULL },
                                 .alpha_max = 0.9 };
-    pe_env *env;
-    pe_maps *maps = NULL;
 
-    rgb[3 * (9 * 48 + 20)] = 30000;
-    close(mkstemp(path));
-    need(pe_env_create(48, 24, rgb, &env, NULL) == PE_OK && pe_bake(env, &options, &maps, NULL) == PE_OK &&
-             pe_maps_get_info(maps)->suns == 1 && pe_maps_write(maps, path, PE_PIXEL_HALF, NULL) == PE_OK,
-         "cannot make maps of grades");
-    load_file(path, s);
-    pe_maps_free(maps);
-    pe_env_free(env);
-    free(rgb);
+    need(bake_seed(s, noise_with_sun(7), 48, &options, PE_PIXEL_HALF) == 1, "grades without their sun");
 }
 
 static void seed_table(seed *s)
