@@ -59,7 +59,9 @@ sphere sphere.exr 'exr "black.exr" roughness 0.4 type 3 samples 1 traced highlig
 is_exact 'Phong, traced' 0,0,0 --alpha 0.4 --ndf phong
 sphere sphere.exr 'exr "black.exr" roughness function { 0.4 } type 2 samples all highlight' "$lamp"
 is_exact 'roughness that varies' 0,0,0 --alpha 0.4 --ndf ggx
-
+bake black.exr -o grades.exr --alpha 0.2-0.5 --aspect 1.5
+sphere sphere.exr 'exr "grades.exr" roughness function { 0.35 } highlight' "$lamp"
+is_exact 'maps of many roughnesses, brushed' 0,0,0 --alpha 0.35 --aspect 1.5
 
 "$PREFENV" surface milled -o milled.exr --size 128x128 --slope 0.3 --roughness 0.8um --quiet &&
     "$PREFENV" ndf milled.exr -o milled.ndf.exr --wrap --turn --quiet || bail_out 'milled.exr was not measured'
