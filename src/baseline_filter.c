@@ -1,5 +1,5 @@
-/* baseline_filter.c - lights seen head on, by any lobe: by isotropic ones of Eq. 4 without a tangent frame, by the others
- * as everywhere else, in the frame of each texel. */
+/* baseline_filter.c - lights seen head on: isotropic lobes of Eq. 4 need no tangent frame, any other is filtered as
+ * everywhere else, in the frame of each texel. */
 #include "baseline_lights.h"
 
 #include "status.h"

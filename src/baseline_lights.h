@@ -64,8 +64,8 @@ typedef struct pe_tile_view {
 int pe_tile_view_make(const pe_head_on *head_on, const double (*world)[3], size_t count, pe_tile_view *view);
 void pe_tile_view_free(pe_tile_view *view);
 
-/* Adds what each texel world[k] sees to sums[k], as pe_head_on_filter gives it, for an isotropic lobe of Eq. 4 by Beckmann
- * or GGX; 0, and nothing is added, for any other. */
+/* Adds what each texel world[k] sees to sums[k], as pe_head_on_filter gives it, for an isotropic lobe of Eq. 4 by
+ * Beckmann or GGX; 0, and nothing is added, for any other. */
 int pe_tile_view_add_isotropic(const pe_tile_view *view, const pe_lobe *lobe, const double (*world)[3], size_t count,
                                double (*sums)[4]);
 

@@ -1,8 +1,8 @@
 /* baseline_view.c - what the texels of a tile see of the lights.
  *
- * What is out of a tile's reach is left out block by block; of what may lie behind the surface of one of its texels, what
- * does is left out one by one: lights, or, where the lobe is so wide that it matters which part of a light lies astride
- * the horizon, the texels that a light stands for. */
+ * What is out of a tile's reach is left out block by block; of what may lie behind the surface of one of its texels,
+ * what does is left out one by one: lights, or, where the lobe is so wide that it matters which part of a light lies
+ * astride the horizon, the texels that a light stands for. */
 #include "baseline_lights.h"
 
 #include <stdlib.h>
