@@ -152,9 +152,34 @@ coat='texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection { 0, 
 shows 'under a coat, as the reflection' 1 "$flat" "$lit" "$coat"
 shows 'over a diffuse surface' 1.08 "$flat" "$lit" 'finish { diffuse 0.5 }'
 shows 'max_trace_level 1' 1 "$flat" "global_settings { max_trace_level 1 } $lit"
-shows 'radiosity adds nothing' 1 "$flat" "global_settings { radiosity { count 20 } } $lit"
-shows 'nor do photons' 1 "$flat" "global_settings { photons { count 2000 } } ${lit%\}} photons { reflection on } }" '' \
-    'photons { target reflection on }'
+
+# A floor beside metal that has a highlight: its light is what radiosity gathers and photons bring, with the highlight
+# as without.
+floor() # PICTURE WORDS SETTINGS
+{
+    scene floor.pov <<END
+$3
+camera { orthographic location 5*y direction -y right 4*x up 4*z }
+light_source { <3, 4, -3>, 1 }
+plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 0.8 } }
+cylinder { 0, y/2, 1 open pigment { rgb 1 } photons { target reflection on }
+    finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { exr "flat.exr" $2 } } emission Glow } }
+END
+    render floor.pov +W16 +H16 +FE +WT1 "+O$1" "Declare=Glow=${4:-0}" || note "$said"
+}
+
+gathers() # NAME SETTINGS [GLOW]
+{
+    floor with.exr highlight "$2"
+    floor without.exr '' "$2"
+    floor other.exr '' "$3" "${4:-0}"
+    ok "$1" "$PREFENV" diff with.exr without.exr --fail-above 0
+    fails '... which the floor would show' "$PREFENV" diff other.exr without.exr --fail-above-relative 0.02
+}
+
+radiosity='global_settings { radiosity { count 60 } }'
+gathers 'radiosity gathers no highlight' "$radiosity" "$radiosity" 1
+gathers 'photons bring what they bring, and no highlight' 'global_settings { photons { count 5000 } }' ''
 
 # Where a traced ray hits; so narrow a lobe sees it as a mirror does.
 shows 'seen in other metal' 1 'exr "black.exr" roughness 0.001 samples 4 traced' "plane { z, -50 pigment { rgb 1 }

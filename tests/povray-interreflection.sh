@@ -23,6 +23,13 @@ one level.exr "exr \"maps.exr\" interreflection 16 hdr \"chart.hdr\" $turned" \
     'global_settings { max_trace_level 1 } sphere { 0, 50 hollow pigment { rgb 0 } finish { ambient 0 } }'
 ok 'max_trace_level 1: nothing is traced, and the lookup stays' "$PREFENV" diff lookup.exr level.exr --fail-above 0
 
+amount=0.5
+one half.exr 'exr "maps.exr"' ''
+one bailout.exr 'exr "maps.exr" interreflection 16 hdr "chart.hdr"' \
+    'global_settings { adc_bailout 0.9 } sphere { 0, 50 hollow pigment { rgb 0 } finish { ambient 0 } }'
+ok 'adc_bailout above the amount: nor then' "$PREFENV" diff half.exr bailout.exr --fail-above 0
+amount=1
+
 # ---- things in the way ----
 
 sphere 'exr "other.exr" interreflection 32 hdr "other.hdr" rotate <0, 120, 90>' \
@@ -91,8 +98,31 @@ END
 
 room 'a room shuts the sky out, at every bounce' 'global_settings { max_trace_level 100 adc_bailout 0 }'
 room '... with radiosity' 'global_settings { max_trace_level 100 adc_bailout 0 radiosity { count 20 } }'
-room '... with photons' 'global_settings { max_trace_level 100 adc_bailout 0 photons { count 2000 } }
-    light_source { <0, 3, -3>, 0 }'
+
+# In a room without any light everything is black; but at the last level a lookup stays as it is, and that is white.
+dark() # LEVEL WORDS: into level, how bright the picture is on average
+{
+    scene dark.pov <<END
+global_settings { max_trace_level $1 radiosity { count 20 recursion_limit 2 } }
+camera { location <0, 0.6, -5> look_at 0 angle 50 }
+#declare Glossy = finish { ambient 0 diffuse 0
+    reflection { 1 prefiltered_environment { exr "sky.exr" roughness 0.6 $2 } } }
+box { <-6, -3, -6>, <6, 6, 6> hollow pigment { rgb 0.8 } finish { ambient 0 diffuse 1 } }
+sphere { -0.8*x, 0.8 pigment { rgb 1 } finish { Glossy } }
+sphere { 0.8*x, 0.8 pigment { rgb 1 } finish { Glossy } }
+torus { 0.8, 0.25 sturm rotate -30*x translate -1.1*y pigment { rgb 1 } finish { Glossy } }
+END
+    render dark.pov +W40 +H40 +FE +WT1 +Odark.exr || note "$said"
+    level=$(oiiotool --stats dark.exr | sed -n 's/^ *Stats Avg: *\([^ ]*\) .*/\1/p')
+    note "max_trace_level $1, $2: $level"
+}
+
+dark 5 'interreflection 4'
+ok 'a dark room at max_trace_level 5: the sky leaks in by a fiftieth' holds "$level < 0.02"
+dark 20 'interreflection 4'
+is "$level" 0.000000 '... at 20, not at all'
+dark 5 'samples 4 traced'
+is "$level" 0.000000 '... nor, at 5, if everything is traced'
 
 # Under a white sky a white floor is white, and so is what glossy balls on it show: the light that radiosity gathers
 # from the sky and from the metal, and that the metal shows of both, counts once.
@@ -110,6 +140,27 @@ render open.pov +W40 +H40 +FE +WT1 +Oopen.exr || note "$said"
 oiiotool --create 40x40 3 --fill:color=1,1,1 40x40 -d half -o white.exr
 ok 'radiosity under a white sky: everything is white' "$PREFENV" diff open.exr white.exr --fail-above 0.05
 note "$tap_output"
+
+# The caustic of metal on the floor is that of its photons, and comes once.
+thrown() # PICTURE WORDS [PHOTONS]
+{
+    scene thrown.pov <<END
+global_settings { ${3:-photons { count 20000 \}} }
+camera { orthographic location 5*y direction -y right 4*x up 4*z }
+light_source { <3, 4, -3>, 1 }
+plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 0.8 } }
+cylinder { 0, y/2, 1 open pigment { rgb 1 } photons { target reflection on }
+    finish { ambient 0 diffuse 0 reflection { 0.9 $2 } } }
+END
+    render thrown.pov +W40 +H40 +FE +WT1 "+O$1" || note "$said"
+}
+thrown mirror.exr ''
+thrown lookup.exr 'prefiltered_environment { exr "sky.exr" roughness 0.3 }'
+thrown corrected.exr 'prefiltered_environment { exr "sky.exr" roughness 0.3 interreflection 8 }'
+thrown dull.exr '' ' '
+ok 'a caustic on the floor is that of a mirror' "$PREFENV" diff lookup.exr mirror.exr --fail-above 0
+ok '... and with interreflection, once' "$PREFENV" diff corrected.exr mirror.exr --fail-above 0
+fails '... which is not nothing' "$PREFENV" diff dull.exr mirror.exr --fail-above-relative 0.1
 
 # A ring throws its caustic on the floor, whose light is that of the photons alone; metal shows it as tracing does.
 caustic='global_settings { photons { count 20000 } }

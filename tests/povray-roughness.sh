@@ -88,6 +88,20 @@ sphere bare "lambda pattern { $gradient } $varying"
 exactly 'a pattern by itself' bare 'y / 4 + 0.5'
 sphere pigment "lambda pigment { $gradient color_map { [0 rgb 0.1] [1 rgb 0.9] } } $varying"
 exactly 'a pigment: its brightness' pigment '0.1 + 0.8 * (y / 4 + 0.5)'
+# Four squares, each as large as a quadrant of x and y.
+oiiotool --create 2x2 3 --point:color=0.2,0.2,0.2 0,0 --point:color=0.4,0.4,0.4 1,0 --point:color=0.6,0.6,0.6 0,1 \
+    --point:color=0.8,0.8,0.8 1,1 --attrib oiio:ColorSpace Linear -d uint8 -o stains.png
+stains='png "stains.png" gamma 1'
+quadrants='y > 0 ? (x < 0 ? 0.2 : 0.4) : (x < 0 ? 0.6 : 0.8)'
+sphere image "lambda pigment { image_map { $stains } translate -1/2 scale 2 } $varying"
+exactly 'an image' image "$quadrants"
+sphere values "lambda 0.9, 0.1 pattern { image_pattern { $stains } translate -1/2 scale 2 } $varying"
+exactly '... and as a pattern, between two numbers' values "0.9 - 0.8 * ($quadrants)"
+# Rings about the z axis, up to a whole one and down again.
+sphere wood "lambda 0.2, 0.9 pattern { wood scale 0.6 } $varying"
+rings='d = sqrt(x * x + y * y) / 0.6 - int(sqrt(x * x + y * y) / 0.6)'
+exactly 'wood' wood "0.2 + 0.7 * (($rings) < 0.5 ? 2 * d : 2 - 2 * d)"
+
 sphere checker 'roughness 0.2, 0.5 pattern { checker } samples all'
 sphere both 'roughness pigment { checker rgb 0.2 rgb 0.5 } samples all'
 same 'roughness takes the same words as lambda' checker both

@@ -44,6 +44,53 @@ ok 'the environment is seen straight through what is clear' "$PREFENV" diff alon
 one level.exr "$block" "$red "'global_settings { max_trace_level 1 }'
 like "$("$PREFENV" diff alone.exr level.exr)" 'reference 0 0 0' 'max_trace_level 1: nothing is traced'
 
+# ---- as a mirror ----
+
+# mirrored PICTURE BLOCK REST: a ball on a floor, a mirror or with that block, and a ring whose caustic it shows
+mirrored()
+{
+    scene mirrored.pov <<END
+$3
+camera { location <0, 1, -4> look_at <0, -0.3, -0.9> angle 20 }
+sky_sphere { pigment { rgb 0.5 } }
+plane { y, -1 pigment { rgb 1 } finish { ambient 0 diffuse 0.8 } }
+cylinder { <0, -1, -2>, <0, -0.8, -2>, 0.9 open pigment { rgb 1 }
+    finish { ambient 0 diffuse 0 reflection 0.9 } photons { target reflection on } }
+sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 diffuse 0 reflection { 0.5 $2 } } }
+END
+    render mirrored.pov +W$size +H$size +FE +WT1 "+O$1" || note "$said"
+}
+
+# mirrors NAME BOUND REST OTHER: metal that is nearly a mirror shows of the rest what POV-Ray's own mirror does, to that
+# bound; and another rest would be noticed
+mirrors()
+{
+    local off without
+
+    mirrored mirror.exr '' "$3"
+    mirrored metal.exr "$polished" "$3"
+    mirrored without.exr '' "$4"
+    off=$(rmse metal.exr mirror.exr) without=$(rmse without.exr mirror.exr)
+    note "relative RMSE: $off; of a mirror with another rest: $without"
+    ok "$1" holds "$off < $2 && $without > 3 * $2"
+}
+
+oiiotool --create 64x32 3 --fill:color=0.5,0.5,0.5 64x32 -d float -o grey.exr
+polished='prefiltered_environment { exr "grey.exr" roughness 0.001 samples 4 traced }'
+lamp='light_source { <3, 6, -3>, 1 }'
+wall='box { <-4, -1, -6>, <4, 1, -5> pigment { rgb 1 } finish { ambient 0 emission <3, 0.5, 0.2> diffuse 0 } }'
+mirrors 'radiosity, as in a mirror' 0.06 \
+    "$wall global_settings { radiosity { count 60 error_bound 0.5 recursion_limit 2 } }" "$wall"
+mirrors 'photons, as in a mirror' 0.035 "global_settings { photons { count 20000 } } $lamp" "$lamp"
+
+# Half of what is reflected is below an adc_bailout of 0.9, and is dropped.
+mirrors 'adc_bailout above the amount, as in a mirror' 0.0001 "$lamp global_settings { adc_bailout 0.9 }" "$lamp"
+amount=0.5
+one bailout.exr 'hdr "chart.hdr" roughness 0.3 samples 16 traced' \
+    "$red $shell no_image } global_settings { adc_bailout 0.9 }"
+like "$("$PREFENV" diff alone.exr bailout.exr)" 'reference 0 0 0' '... where nothing is traced'
+amount=1
+
 # ---- every bounce ----
 
 # In a room that is white all over everything is white, however light goes: nothing is lost below the horizon, in

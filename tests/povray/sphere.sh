@@ -5,12 +5,14 @@
 #                            before it
 #   one NAME BLOCK REST [OPTION...]      the picture of the first place is NAME, $size pixels wide and high
 #   places NAME COUNT        one of each of so many places, NAME1.exr and on; of two digits if there are ten
+#                            All of these reflect $amount, 1 if nothing else is said
 #   is_exact NAME COUNT COMMAND...       claim: so many places differ by noise alone from what that command of prefenv
 #                            says
 #   rmse PICTURE REFERENCE   relative, to standard output
 #   holds EXPRESSION         true if awk finds it so
 
 size=24
+amount=1
 
 sphere()
 {
@@ -20,7 +22,7 @@ camera { location -3*z direction z right x up y translate Place }
 sphere {
     0, 1
     pigment { rgb 1 }
-    finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { $1 } } }
+    finish { ambient 0 diffuse 0 reflection { $amount prefiltered_environment { $1 } } }
     translate Place
 }
 $2
