@@ -82,6 +82,9 @@ animate()
     say "$name" "frames $first to $frames in $(seconds_since "$begun") s"
 }
 
+ffmpeg_missing='ffmpeg is not installed: ./bootstrap --film or apt-get install ffmpeg'
+command -v ffmpeg >/dev/null || say film "will not be made, for $ffmpeg_missing"
+
 make_teapot .
 animate street exr "$(first_old street exr "$scenes/street.pov")" street.pov +W512 +H256 +A0.05 +AM1 +R3 -J
 
@@ -129,6 +132,6 @@ if command -v ffmpeg >/dev/null; then
     mv film.part.webm film.webm
     say film "$frames frames, 15 a second"
 else
-    say film "not made, for ffmpeg is not installed: apt-get install ffmpeg, then make street again"
+    say film "not made, for $ffmpeg_missing, then make street again: pictures are kept"
 fi
 echo "$figures: in $(seconds_since "$started") s"
