@@ -70,6 +70,8 @@ wrong 'an environment twice' 'hdr "chart.hdr" roughness 0.1 interreflection 8 hd
     'interreflection takes a file behind its number with maps only'
 wrong 'interreflection and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 interreflection 8' \
     'interreflection corrects what is looked up in maps, but samples asks for none'
+wrong 'accuracy and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 accuracy 0.01' \
+    'accuracy says how exact the maps are that are baked, but samples asks for none: remove either'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
 wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'
@@ -104,6 +106,8 @@ wrong 'an unknown word' 'exr "maps.exr" gloss 3' ''
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { exr "maps.exr" } } }'
 rejected 'maps as a pigment' \
     "File 'error.pov' line 4: Parse Error: This file holds prefiltered maps, .*baked from" error.pov
+scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" interreflection 0 exr "maps.exr" } } }'
+rejected 'a file behind interreflection in a pigment' 'line 4: Parse Error: In a pigment, .*interreflection' error.pov
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" method 3 } } }'
 rejected 'a method in a pigment' "File 'error.pov' line 4: Parse Error: In a pigment, .*move method" error.pov
 scene error.pov <<<'plane { y, 0 normal { prefiltered_environment { hdr "chart.hdr" } } }'

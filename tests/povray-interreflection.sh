@@ -30,6 +30,52 @@ one bailout.exr 'exr "maps.exr" interreflection 16 hdr "chart.hdr"' \
 ok 'adc_bailout above the amount: nor then' "$PREFENV" diff half.exr bailout.exr --fail-above 0
 amount=1
 
+# Maps of one direction stay as they were baked, and so do the rays that correct them.
+bake chart.hdr -o brushed.exr --alpha 0.1,0.5
+wall='plane { -z, 5 pigment { checker rgb 0 rgb 2 } finish { ambient 1 diffuse 0 } }'
+one plain.exr 'exr "brushed.exr" interreflection 16 hdr "chart.hdr"' "$wall"
+one directed.exr 'exr "brushed.exr" direction x interreflection 16 hdr "chart.hdr"' "$wall"
+ok 'a direction that maps do not have changes no ray' "$PREFENV" diff plain.exr directed.exr --fail-above 0
+
+# Coarse shapes, shaded smooth and convex: what is above the normal shown, but below the facet met, is not to be found
+# inside.
+smooth() # NAME WORDS SHAPE
+{
+    scene smooth.pov <<END
+camera { location -3*z direction z right x up y }
+#declare Steps = 10;
+#macro Point(I, J) vrotate(vrotate(x, 180 / Steps * J * z), 360 / Steps * I * x) #end
+#macro Corner(I, J) Point(I, J), Point(I, J) #end
+#macro Triangles()
+    #for (I, 1, Steps)
+        #for (J, 1, Steps)
+            #if (J > 1) smooth_triangle { Corner(I, J - 1), Corner(I + 1, J - 1), Corner(I, J) } #end
+            #if (J < Steps) smooth_triangle { Corner(I + 1, J - 1), Corner(I + 1, J), Corner(I, J) } #end
+        #end
+    #end
+#end
+object {
+    $3
+    scale <1, 0.8, 0.9>
+    rotate <20, 50, 0>
+    texture {
+        pigment { rgb 1 }
+        finish { ambient 0 diffuse 0 reflection { 1 prefiltered_environment { exr "maps.exr" $2 } } }
+    }
+}
+END
+    render smooth.pov +W$size +H$size +FE "+O$1" || note "$said"
+}
+
+dome='height_field { function 12, 12 { 1 - pow(x - 0.5, 2) - pow(y - 0.5, 2) } smooth
+    translate <-0.5, -1, -0.5> scale <2, 1, 2> rotate -90*x }'
+for shape in 'mesh { Triangles() }' 'union { Triangles() }' "$dome"; do
+    smooth lookup.exr '' "$shape"
+    smooth alone.exr 'interreflection 16 hdr "chart.hdr"' "$shape"
+    ok "the same on a ${shape%% *} that is shaded smooth" "$PREFENV" diff lookup.exr alone.exr --fail-above 0 ||
+        note "$tap_output"
+done
+
 # ---- things in the way ----
 
 sphere 'exr "other.exr" interreflection 32 hdr "other.hdr" rotate <0, 120, 90>' \
