@@ -100,6 +100,18 @@ like "$("$PREFENV" bake env.png -o n.exr $quick 2>&1)" 'warning: env.png: a PNG 
 said=$("$PREFENV" bake negative.exr -o e.exr --error 0.0005 --normals 12 --size 8x8 2>&1)
 like "$said" "warning: e.exr: the error of lookups is [0-9.]+ %, not the 0.05 % asked for; give more --normals" \
     "an error that was not reached is told"
+oiiotool --create 32x16 3 --box:color=9,9,9:fill=1 20,4,20,4 -d half -o lamp.exr
+said=$("$PREFENV" bake lamp.exr -o e.exr --normals 12 --size 8x8 --alpha 0.1 2>&1)
+like "$said" "warning: e.exr: lookups are off by about [0-9]+ %, which shows; give --quality high" \
+    "and one that shows, too, where none was asked for"
+"$PREFENV" surface blasted -o heights.exr --size 64x64 --quiet &&
+    "$PREFENV" ndf heights.exr -o cut.exr --wrap --quiet
+# shellcheck disable=SC2086
+like "$("$PREFENV" bake heights.exr -o n.exr $quick 2>&1)" "heights.exr: is a height field; measure it with prefenv ndf" \
+    "a height field is no environment"
+# shellcheck disable=SC2086
+like "$("$PREFENV" bake cut.exr -o n.exr $quick 2>&1)" "cut.exr: is a table of slopes; give it behind --ndf" \
+    "nor is a table of slopes"
 oiiotool --pattern noise:type=uniform:min=0:max=1 256x128 3 -d half -o noise.exr
 said=$("$PREFENV" bake noise.exr -o e.exr --paper --fast --size 40x20 --alpha 0.6,0.02 --error 0.0005 2>&1)
 like "$said" "warning: e.exr: the error of texels is [0-9.]+ %, not the 0.05 % asked for; --exact has none$" \

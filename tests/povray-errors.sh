@@ -72,6 +72,10 @@ wrong 'interreflection and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 int
     'interreflection corrects what is looked up in maps, but samples asks for none'
 wrong 'accuracy and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 accuracy 0.01' \
     'accuracy says how exact the maps are that are baked, but samples asks for none: remove either'
+wrong 'an accuracy out of range' 'hdr "chart.hdr" roughness 0.1 accuracy 0' \
+    'accuracy, a relative error, must lie between 0.0005 and 0.1, but 0 was given'
+wrong 'a misspelled word' 'hdr "chart.hdr" rougness 0.1' \
+    'rougness is not a word of prefiltered_environment. Its words are: .*roughness, lambda, .*highlight'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
 wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
 wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'

@@ -71,23 +71,44 @@ static void note_flaws(batch *b, const char *environment, const pe_env *env)
     cli_warn_of_flaws("bake", environment, env);
 }
 
-/* What was asked for may take more memory than the choice may, or a harder environment than it knows. */
+/* An error of lookups that shows, and is worth a word where none was asked for. */
+#define ERROR_THAT_SHOWS 0.05
+
+static const char *way_to_less(const pe_bake_options *options, const pe_maps_info *info)
+{
+    int more = options->error == 0 && options->quality == PE_QUALITY_NORMAL;
+
+    switch (info->method) {
+    case PE_METHOD_GRADES:
+        return more ? "give --quality high, or a smaller range of --alpha" : "give a smaller range of --alpha";
+    case PE_METHOD_HEMISPHERES:
+        return more ? "give --quality high" : "give more --normals, and a larger --size";
+    case PE_METHOD_LAYERS:
+        return "finer layers were no better";
+    default:
+        return "--exact has none";
+    }
+}
+
+/* What was asked for, or what is usual, may take more memory than the choice may, or a harder environment than it
+ * knows. */
 static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
 {
     const pe_maps_info *info = pe_maps_get_info(maps);
     int of_lookups = info->method == PE_METHOD_HEMISPHERES || info->method == PE_METHOD_LAYERS ||
                      info->method == PE_METHOD_GRADES; /* else not measured */
-    const char *way_out = info->method == PE_METHOD_GRADES        ? "give a smaller range of --alpha"
-                          : info->method == PE_METHOD_HEMISPHERES ? "give more --normals, and a larger --size"
-                          : of_lookups                            ? "finer layers were no better"
-                                                                  : "--exact has none";
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
+    const char *way = way_to_less(&b->options, info);
 
-    if (b->quiet || b->made > 0 || !(wanted > 0 && reached > wanted))
+    if (b->quiet || b->made > 0 || reached <= (wanted > 0 ? wanted : ERROR_THAT_SHOWS))
         return;
     progress_clear(&b->bar);
-    cli_warning("bake", "%s: the error of %s is %.2g %%, not the %.2g %% asked for; %s", output,
-                of_lookups ? "lookups" : "texels", 100 * reached, 100 * wanted, way_out);
+    if (wanted > 0)
+        cli_warning("bake", "%s: the error of %s is %.2g %%, not the %.2g %% asked for; %s", output,
+                    of_lookups ? "lookups" : "texels", 100 * reached, 100 * wanted, way);
+    else
+        cli_warning("bake", "%s: %s are off by about %.2g %%, which shows; %s", output,
+                    of_lookups ? "lookups" : "texels", 100 * reached, way);
 }
 
 /* ---- write ---- */

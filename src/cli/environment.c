@@ -13,8 +13,15 @@ pe_status cli_read_environment(const char *path, pe_env **env, pe_error *error)
 
     if (status != PE_OK)
         return status;
-    if (pe_maps_detect(bytes, size)) /* its first map would pass for an environment */
+    /* What these hold would pass for an environment. */
+    if (pe_maps_detect(bytes, size))
         status = pe_fail(error, PE_ERROR_FORMAT, "%s: is a maps file; give the image that it was baked from", path);
+    else if (pe_ndf_table_detect(bytes, size))
+        status =
+            pe_fail(error, PE_ERROR_FORMAT, "%s: is a table of slopes; give it behind --ndf, and an environment", path);
+    else if (pe_heights_detect(bytes, size))
+        status = pe_fail(error, PE_ERROR_FORMAT,
+                         "%s: is a height field; measure it with prefenv ndf, and give an environment", path);
     else
         status = pe_env_read_memory(bytes, size, path, env, error);
     free(bytes);
