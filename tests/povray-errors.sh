@@ -110,8 +110,9 @@ wrong 'an unknown word' 'exr "maps.exr" gloss 3' ''
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { exr "maps.exr" } } }'
 rejected 'maps as a pigment' \
     "File 'error.pov' line 4: Parse Error: This file holds prefiltered maps, .*baked from" error.pov
-scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" interreflection 0 exr "maps.exr" } } }'
-rejected 'a file behind interreflection in a pigment' 'line 4: Parse Error: In a pigment, .*interreflection' error.pov
+scene error.pov <<<'sky_sphere { pigment { prefiltered_environment {
+    hdr "chart.hdr" interreflection 0 exr "maps.exr" } } }'
+rejected 'a file behind interreflection in a pigment' 'line 5: Parse Error: In a pigment, .*interreflection' error.pov
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" method 3 } } }'
 rejected 'a method in a pigment' "File 'error.pov' line 4: Parse Error: In a pigment, .*move method" error.pov
 scene error.pov <<<'plane { y, 0 normal { prefiltered_environment { hdr "chart.hdr" } } }'
