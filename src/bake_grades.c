@@ -69,8 +69,9 @@ pe_status pe_baker_prepare_grades(pe_baker *b, double aim, int width, int height
     status = check(&b->options, &b->info, error);
     if (status != PE_OK)
         return status;
-    pe_choose_grades(&b->options, aim, &b->info, each);
-    status = make_grades(b, each, error);
+    status = pe_choose_grades(&b->options, aim, &b->info, each, error);
+    if (status == PE_OK)
+        status = make_grades(b, each, error);
     if (status != PE_OK)
         return status;
     b->info.normals = each[0].normals;

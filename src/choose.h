@@ -17,7 +17,8 @@ void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_i
 
 /* The same for grades: completes how many there are, if the options do not say, and each one's normals, width, height
  * and angles at the poles: the least memory that should reach the error, or the least error within the budget. */
-void pe_choose_grades(const pe_bake_options *options, double aim, pe_maps_info *info, pe_maps_info *each);
+pe_status pe_choose_grades(const pe_bake_options *options, double aim, pe_maps_info *info, pe_maps_info *each,
+                           pe_error *error);
 
 /* A width and height for hemispheres whose splines follow the lobe to about a tenth of a percent. */
 void pe_choose_fine_size(const pe_ndf *ndf, int *width, int *height);
