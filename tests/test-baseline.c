@@ -49,7 +49,8 @@ static void test_exact(const char *name, int width, int height, const pe_ndf *nd
         reference_direction(WIDTH, HEIGHT, texel % WIDTH, texel / WIDTH, w, &theta);
         pe_exact(env, &surface, direction, w, w, exact);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs((double)pe_maps_image(maps, 0)[3 * texel + c] - exact[c]) / (exact[c] + 1e-30));
+            worst =
+                worst_of(worst, fabs((double)pe_maps_image(maps, 0)[3 * texel + c] - exact[c]) / (exact[c] + 1e-30));
     }
     ok(worst < WORST_MAX, "%s, %s, alpha %g, %g: worst %.1e", name, names[ndf->kind], ndf->alpha_x, ndf->alpha_y,
        worst);
@@ -132,7 +133,7 @@ static void test_behind(pe_ndf_kind kind, double alpha, double bound)
 
         reference_direction(400, 200, texel % 400, texel / 400, w, &theta);
         if (pe_dot(w, n) < -0.9999)
-            brightest = fmax(brightest, (double)pe_maps_image(maps, 0)[3 * texel]);
+            brightest = worst_of(brightest, (double)pe_maps_image(maps, 0)[3 * texel]);
     }
     /* Where w is not -n itself it does see a sliver, at most 0.9 degrees high. */
     ok(brightest < bound, "%s, alpha %g: with the light behind it, a texel is %.1e", names[kind], alpha, brightest);

@@ -112,8 +112,8 @@ static void test_surface(const pe_env *env, const pe_surface *surface)
         reflect_many(env, surface, o, 20000, many);
         reflect_one(env, surface, o, 4000, one, error);
         for (int c = 0; c < 3; c++) {
-            worst = fmax(worst, fabs(many[c] / exact[c] - 1));
-            furthest = fmax(furthest, fmax(fabs(one[c] - exact[c]) - tolerance * exact[c], 0) / error[c]);
+            worst = worst_of(worst, fabs(many[c] / exact[c] - 1));
+            furthest = worst_of(furthest, worst_of(fabs(one[c] - exact[c]) - tolerance * exact[c], 0) / error[c]);
         }
     }
     ok(worst < 4e-3, "%s %g, %g, %s: 20000 directions within %.1e of exact", kinds[surface->ndf.kind],
@@ -186,7 +186,7 @@ static void test_inverse(void)
             x = h[0] / h[2];
             below = c / 2 * (erf(x) - erf(least)) + s / (2 * sqrt(M_PI)) * (gauss - exp(-x * x));
             all = c / 2 * erfc(least) + s / (2 * sqrt(M_PI)) * gauss;
-            worst = fmax(worst, fabs(below / all - shares[k]));
+            worst = worst_of(worst, fabs(below / all - shares[k]));
         }
     ok(worst < 1e-7, "visible slopes of Beckmann's are inverted but for %.1e", worst);
 }

@@ -33,8 +33,8 @@ static void test_round_trip(int width, int height)
             for (int c = 0; c < 3; c++)
                 direction[c] = (float)w[c];
             pe_disc_point(&disc, direction, point);
-            unit = fmax(unit, fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1));
-            worst = fmax(worst, fmax(fabs((double)point[0] - x - 0.5), fabs((double)point[1] - y - 0.5)));
+            unit = worst_of(unit, fabs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1));
+            worst = worst_of(worst, worst_of(fabs((double)point[0] - x - 0.5), fabs((double)point[1] - y - 0.5)));
         }
     ok(inside > 0 && unit < 1e-12 && worst < 1e-6 * fmax(width, height),
        "%d x %d: texel to direction and back within %.1e of a texel", width, height, worst);
@@ -61,7 +61,7 @@ static void test_equal_area(void)
             }
             area = w[0] * (a[1] * b[2] - a[2] * b[1]) + w[1] * (a[2] * b[0] - a[0] * b[2]) +
                    w[2] * (a[0] * b[1] - a[1] * b[0]);
-            worst = fmax(worst, fabs(area / expected - 1));
+            worst = worst_of(worst, fabs(area / expected - 1));
             count++;
         }
     ok(count > 1000 && worst < 1e-4, "every texel has the same solid angle within %.1e", worst);
@@ -83,7 +83,7 @@ static void test_horizon(int width, int height)
             pe_disc_point(&disc, w, point);
             dx = ((double)point[0] - width / 2.0) / pe_disc_radius(width) - cos(angle);
             dy = ((double)point[1] - height / 2.0) / pe_disc_radius(height) - sin(angle);
-            worst = fmax(worst, hypot(dx, dy));
+            worst = worst_of(worst, hypot(dx, dy));
         }
     ok(worst < 2e-6, "%d x %d: the horizon, and all below it, on the unit circle within %.1e", width, height, worst);
 }
@@ -123,8 +123,8 @@ static void test_continuation(int width, int height)
                 continue;
             }
             inside &= pe_disc_direction(&disc, from_x, from_y, w);
-            off = fmax(off, off_radius(&disc, from_x, from_y, x + 0.5, y + 0.5));
-            deep = fmax(deep, (1 - hypot(p, q)) * pe_disc_radius(width < height ? width : height));
+            off = worst_of(off, off_radius(&disc, from_x, from_y, x + 0.5, y + 0.5));
+            deep = worst_of(deep, (1 - hypot(p, q)) * pe_disc_radius(width < height ? width : height));
         }
     ok(kept && inside && off < 1 && deep < 2,
        "%d x %d: beyond the horizon as at it: off the radius by %.2f texels, inside by %.2f", width, height, off, deep);
@@ -167,8 +167,8 @@ static double worst_miss(const float *values, const int size[2])
     for (int k = 0; k < (int)count; k++) {
         const int at[2] = { k / 3 % size[0], k / 3 / size[0] };
 
-        worst =
-            fmax(worst, fabs(evaluate(coefficients, size, at, (const float[2]){ 0, 0 }, k % 3) - (double)values[k]));
+        worst = worst_of(worst,
+                         fabs(evaluate(coefficients, size, at, (const float[2]){ 0, 0 }, k % 3) - (double)values[k]));
     }
     free(coefficients);
     return worst;
@@ -219,7 +219,7 @@ static void test_smooth(const int size[2])
             differentiate(left, 1, from_left);
             differentiate(right, -1, from_right);
             for (int d = 0; d < 3; d++)
-                worst[d] = fmax(worst[d], fabs(from_left[d] - from_right[d]));
+                worst[d] = worst_of(worst[d], fabs(from_left[d] - from_right[d]));
         }
     ok(worst[0] < 1e-6 && worst[1] < 1e-5 && worst[2] < 1e-4,
        "%d x %d: no jump at a texel: value %.1e, slope %.1e, curvature %.1e", size[0], size[1], worst[0], worst[1],
@@ -244,8 +244,9 @@ static void test_weights(void)
             moments[0] += (double)interpolating[i] * (i - 1);
             moments[1] += (double)interpolating[i] * (i - 1) * (i - 1);
         }
-        sum_off = fmax(sum_off, fmax(fabs(sums[0] - 1), fabs(sums[1] - 1)));
-        parabola_off = fmax(parabola_off, fmax(fabs(moments[0] - (double)t), fabs(moments[1] - (double)(t * t))));
+        sum_off = worst_of(sum_off, worst_of(fabs(sums[0] - 1), fabs(sums[1] - 1)));
+        parabola_off =
+            worst_of(parabola_off, worst_of(fabs(moments[0] - (double)t), fabs(moments[1] - (double)(t * t))));
     }
     ok(sum_off < 5e-7 && parabola_off < 1e-6, "shares add up to 1 within %.1e, parabolas return within %.1e", sum_off,
        parabola_off);

@@ -35,11 +35,11 @@ static void test_round_trip(void)
         pe_latlong_coordinates(d, &u, &v);
         pe_latlong_direction(u, v, back);
         for (int c = 0; c < 3; c++)
-            off = fmax(off, fabs(back[c] - d[c]));
+            off = worst_of(off, fabs(back[c] - d[c]));
         if (k % 3 == 0)
-            worst_pole = fmax(worst_pole, off);
+            worst_pole = worst_of(worst_pole, off);
         else
-            worst = fmax(worst, off);
+            worst = worst_of(worst, off);
         if (!(u >= 0 && u < 1 && v >= 0 && v <= 1))
             ok(0, "u = %g, v = %g is out of range", u, v);
     }
@@ -113,7 +113,7 @@ static void test_continuity(int width, int height)
             }
             pe_env_lookup(env, d, rgb);
             for (int c = 0; c < 3 && k; c++)
-                largest = fmax(largest, fabs(rgb[c] - before[c]));
+                largest = worst_of(largest, fabs(rgb[c] - before[c]));
             memcpy(before, rgb, sizeof before);
         }
     }

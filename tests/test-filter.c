@@ -69,7 +69,7 @@ static void compare(const environment *e, const pe_maps *maps, int stride, doubl
         for (int c = 0; c < 3; c++) {
             double difference = fabs((double)got[c] - expected[c]);
 
-            *worst = fmax(*worst, difference / (expected[c] + 1e-30));
+            *worst = worst_of(*worst, difference / (expected[c] + 1e-30));
             error2 += difference * difference;
             norm2 += expected[c] * expected[c];
         }
@@ -122,7 +122,7 @@ static void test_exact(const environment *e, pe_ndf_kind kind, double alpha_x, d
         reference_reflection_of((int)kind, e->rgb, e->width, e->height, alpha_x, alpha_y, unit_direction, n, o,
                                 expected);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-30));
+            worst = worst_of(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-30));
     }
     ok(worst < 1e-9, "%s, %s, alpha %g, %g: pe_exact within %.1e", e->name, kinds[kind], alpha_x, alpha_y, worst);
     pe_env_free(env);
@@ -190,7 +190,8 @@ static void test_equator(int width, int height)
         if (fabs(pe_dot(n, w)) > 1e-9)
             continue;
         on_equators++;
-        worst = fmax(worst, fabs((double)pe_maps_image(maps, k / (width * height))[3 * (k % (width * height))] - 1));
+        worst =
+            worst_of(worst, fabs((double)pe_maps_image(maps, k / (width * height))[3 * (k % (width * height))] - 1));
     }
     ok(on_equators > 0 && worst < 0.7, "%d x %d: %d texels on equators, none a mirror's (%.2g)", width, height,
        on_equators, worst);

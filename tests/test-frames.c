@@ -225,7 +225,7 @@ static void test_furnace(pe_method method)
     baker = make_baker(env, &options);
     bake_frames(baker, (const pe_env *const *)&env, 1, &maps);
     for (size_t k = 0; k < bytes_of(maps) / sizeof(float); k++)
-        worst = fmax(worst, fabs((double)pe_maps_image(maps, 0)[k] - 1));
+        worst = worst_of(worst, fabs((double)pe_maps_image(maps, 0)[k] - 1));
     ok(worst < 2e-5, "method %d: a white furnace is 1 within %.1e", (int)method, worst);
     pe_maps_free(maps);
     pe_baker_free(baker);

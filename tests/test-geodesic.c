@@ -76,10 +76,10 @@ static void test_location(const pe_geodesic *g, int f)
         pe_geodesic_locate(g, n, vertices, weights);
         sums &= weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 &&
                 fabs(weights[0] + weights[1] + weights[2] - 1) < 1e-14;
-        lowest = fmin(lowest, rebuilt_cosine(g, n, vertices, weights));
+        lowest = least_of(lowest, rebuilt_cosine(g, n, vertices, weights));
         nearest &= has_nearest(g, n, vertices);
         for (int c = 0; c < 3; c++)
-            widest = fmin(widest, pe_dot(n, pe_geodesic_vertex(g, vertices[c])));
+            widest = least_of(widest, pe_dot(n, pe_geodesic_vertex(g, vertices[c])));
     }
     for (int k = 0; k < pe_geodesic_count(g); k++) {
         double weights[3], own = 0;

@@ -212,7 +212,7 @@ static double largest_difference(const pe_maps *a, const pe_maps *b, const view 
         pe_sample(a, NULL, &views[k].point, x);
         pe_sample(b, NULL, &views[k].point, y);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(x[c] - y[c]) / (fabs(y[c]) + 1e-3));
+            worst = worst_of(worst, fabs(x[c] - y[c]) / (fabs(y[c]) + 1e-3));
     }
     return worst;
 }
@@ -242,8 +242,8 @@ static void test_grades(void)
         options.surface = its->surface;
         alone = bake(env, &options);
         set_roughness(views, its->surface.ndf.alpha_x);
-        worst = fmax(worst, largest_difference(maps, alone, views));
-        ratio = fmax(ratio, fabs(its->surface.ndf.alpha_y / its->surface.ndf.alpha_x - 0.7));
+        worst = worst_of(worst, largest_difference(maps, alone, views));
+        ratio = worst_of(ratio, fabs(its->surface.ndf.alpha_y / its->surface.ndf.alpha_x - 0.7));
         pe_maps_free(alone);
     }
     ok(info->grades == 5 && info->images >= 5 * 42 && ratio < 1e-12 && worst < 1e-4,
@@ -251,7 +251,7 @@ static void test_grades(void)
     set_roughness(views, 7);
     worst = largest_difference(maps, pe_maps_grade(maps, 4), views);
     set_roughness(views, NAN);
-    worst = fmax(worst, largest_difference(maps, pe_maps_grade(maps, 0), views));
+    worst = worst_of(worst, largest_difference(maps, pe_maps_grade(maps, 0), views));
     ok(worst < 1e-5, "beyond the roughest as the roughest, and what is no number as the smoothest");
     pe_maps_free(maps);
     pe_env_free(env);
@@ -270,7 +270,7 @@ static void test_white(void)
         double rgb[3];
 
         pe_sample(maps, NULL, &views[k].point, rgb);
-        worst = fmax(worst, fabs(rgb[1] - 1));
+        worst = worst_of(worst, fabs(rgb[1] - 1));
     }
     ok(worst < 1e-5, "white surroundings stay white, within %g", worst);
     pe_maps_free(maps);

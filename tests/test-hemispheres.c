@@ -56,7 +56,7 @@ static void compare(const double got[3], const double expected[3], difference *d
 
         d->error2 += miss * miss;
         d->norm2 += expected[c] * expected[c];
-        d->worst = fmax(d->worst, miss / (expected[c] + 1e-30));
+        d->worst = worst_of(d->worst, miss / (expected[c] + 1e-30));
     }
 }
 
@@ -163,7 +163,7 @@ static void test_dark(void)
         pe_exact(env, &options.surface, (const double[3]){ 0, 1, 0 }, n, o, expected);
         sample_point(maps, NULL, NULL, n, o, got);
         for (int c = 0; c < 3; c++)
-            darkest = fmin(darkest, got[c] / expected[c]);
+            darkest = least_of(darkest, got[c] / expected[c]);
     }
     ok(darkest > 0.05, "at grazing angles in a room of lamps: no lookup below %.3f of the truth", darkest);
     pe_maps_free(maps);
@@ -211,7 +211,7 @@ static void test_sum_of_suns(pe_ndf_kind kind, double alpha_x, double alpha_y)
         }
         pe_frame_coordinates(&frame, o, local);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(got[c] * pe_denominator_at(denominator, local) - sum[c]));
+            worst = worst_of(worst, fabs(got[c] * pe_denominator_at(denominator, local) - sum[c]));
     }
     worst /= pe_ndf_evaluate(&surface.ndf, up);
     ok(worst < 5e-9, "%s, alpha %g, %g: %d suns add up to within %.1e", kinds[kind], alpha_x, alpha_y, COUNT, worst);
@@ -415,7 +415,7 @@ static void test_furnace(const pe_ndf *ndf, pe_accuracy accuracy, int angles)
                 o[c] -= pe_dot(n, o) * n[c] * (1 - 1e-15);
         sample_point(maps, &sampling, d, n, o, rgb);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(rgb[c] - 1));
+            worst = worst_of(worst, fabs(rgb[c] - 1));
     }
     ok(worst < 1e-5, "white furnace, %s, alpha %g, %g, %s, %d angles: 1 within %.1e", kinds[ndf->kind], ndf->alpha_x,
        ndf->alpha_y, accuracy == PE_ACCURACY_FAST ? "fast" : "exact", angles, worst);
@@ -513,7 +513,7 @@ static void test_continuity(int angles)
         for (int v = 0; v < 2; v++)
             sample_point(maps, NULL, aslant, n[v], o[v], rgb[v]);
         for (int c = 0; c < 3; c++)
-            steepest = fmax(steepest, fabs(rgb[1][c] - rgb[0][c]) / (2 * STEP));
+            steepest = worst_of(steepest, fabs(rgb[1][c] - rgb[0][c]) / (2 * STEP));
     }
     ok(steepest < 10, "%d angles: lookups change by %.2f a radian at most, edges and horizons included", angles,
        steepest);

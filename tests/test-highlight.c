@@ -88,8 +88,8 @@ typedef struct differences {
 static void compare(const double got[3], const double exact[3], differences *d)
 {
     for (int c = 0; c < 3; c++) {
-        d->worst = fmax(d->worst, fabs(got[c] - exact[c]) / fmax(exact[c], 1e-3));
-        d->largest = fmax(d->largest, exact[c]);
+        d->worst = worst_of(d->worst, fabs(got[c] - exact[c]) / fmax(exact[c], 1e-3));
+        d->largest = worst_of(d->largest, exact[c]);
     }
 }
 
@@ -152,7 +152,7 @@ static void gathers_white(const pe_surface *surface, const char *name)
         pe_frame_coordinates(&frame, o, local);
         if (surface->weight == PE_WEIGHT_MICROFACET)
             white = pe_directional_albedo(&surface->ndf, local, 256);
-        worst = fmax(worst, fabs(gather(highlights, o) / white - 1));
+        worst = worst_of(worst, fabs(gather(highlights, o) / white - 1));
     }
     ok(worst < 0.01, "%s: light from everywhere adds up", name);
     note("differences up to %.2g", worst);

@@ -34,7 +34,7 @@ static double worst_difference(const pe_env *env, double exponent)
             n[k] = sin(beta) * r[k] + cos(beta) * across[k];
         pe_phong(env, exponent, PE_HORIZON_DARK, n, r, rgb);
         difference = fabs(rgb[1] - pe_visible_share(exponent, sin(beta)));
-        worst = difference > worst ? difference : worst;
+        worst = worst_of(worst, difference);
     }
     return worst;
 }
@@ -51,7 +51,7 @@ int main(void)
         /* Texels are counted whole, which tells where the lobe is not much wider than they. */
         ok(worst < 0.0003 + 1e-5 * exponents[i], "exponent %g: as the sum over texels", exponents[i]);
         note("worst difference %.2g", worst);
-        middle = fmax(middle, fabs(pe_visible_share(exponents[i], 0) - 0.5));
+        middle = worst_of(middle, fabs(pe_visible_share(exponents[i], 0) - 0.5));
     }
     ok(middle < 1e-12, "half of it where r lies in the surface");
     ok(fabs(pe_visible_share(0, 0.5) - 2.0 / 3) < 1e-9, "exponent 0: of the half circle, what stands above");

@@ -99,7 +99,7 @@ static double worst_difference(const pe_maps *maps, const pe_maps *back)
     double worst = 0;
 
     for (size_t k = 0; k < 3 * (size_t)info->images * (size_t)info->width * (size_t)info->height; k++)
-        worst = fmax(worst, fabs((double)(b[k] - a[k])) / (double)a[k]);
+        worst = worst_of(worst, fabs((double)(b[k] - a[k])) / (double)a[k]);
     return worst;
 }
 

@@ -68,7 +68,7 @@ static double polynomial_error(const pe_surface *surface)
 
             for (int term = PE_REFLECTANCE_TERMS - 1; term >= 0; term--)
                 f = f * x + (double)lobe->reflectance[c][term];
-            worst = fmax(worst, fabs(f - pe_reflectance(surface->eta[c], surface->k[c], cosine)));
+            worst = worst_of(worst, fabs(f - pe_reflectance(surface->eta[c], surface->k[c], cosine)));
         }
     }
     pe_lobe_free(lobe);
@@ -84,7 +84,7 @@ static void test_reflectance(void)
         double eta = 6 * reference_random(&state), kappa = 9 * reference_random(&state);
         double cosine = reference_random(&state);
 
-        worst = fmax(worst, fabs(pe_reflectance(eta, kappa, cosine) - reference_reflectance(eta, kappa, cosine)));
+        worst = worst_of(worst, fabs(pe_reflectance(eta, kappa, cosine) - reference_reflectance(eta, kappa, cosine)));
     }
     ok(worst < 1e-12, "reflectance is that of complex arithmetic within %.1e", worst);
     for (int k = 0; k < 60; k++) {
@@ -98,13 +98,13 @@ static void test_reflectance(void)
             surface.eta[c] = own * cos(angle);
             surface.k[c] = own * sin(angle);
         }
-        polynomial = fmax(polynomial, polynomial_error(&surface));
+        polynomial = worst_of(polynomial, polynomial_error(&surface));
     }
     ok(polynomial < 1e-3, "in the filter within %.1e of any conductor's", polynomial);
     for (int m = 0; pe_material_name(m); m++) {
         pe_surface surface = make_surface(PE_NDF_GGX, 0.3, 0.3, pe_material_name(m));
 
-        metals = fmax(metals, polynomial_error(&surface));
+        metals = worst_of(metals, polynomial_error(&surface));
     }
     ok(metals < 2e-4, "and within %.1e of the metals'", metals);
 }
@@ -173,7 +173,7 @@ static void test_masking(double alpha_x, double alpha_y)
 
         polar(0.5 + 0.14 * k, 0.9 * k, o);
         expected = lambda_by_quadrature(&beckmann, o);
-        worst = fmax(worst, fabs(pe_ndf_lambda(&beckmann, o) - expected) / (1 + expected));
+        worst = worst_of(worst, fabs(pe_ndf_lambda(&beckmann, o) - expected) / (1 + expected));
     }
     ok(worst < 1e-5, "alpha %g, %g: Lambda of beckmann within %.1e", alpha_x, alpha_y, worst);
     for (int k = 0; k < 2000; k++) {
@@ -181,7 +181,7 @@ static void test_masking(double alpha_x, double alpha_y)
 
         polar(M_PI / 2 * k / 2000, 0.37 * k, o);
         closed = pe_ndf_lambda(&beckmann, o);
-        worst_table = fmax(worst_table, fabs(pe_ndf_lambda(&table, o) - closed) / (1 + closed));
+        worst_table = worst_of(worst_table, fabs(pe_ndf_lambda(&table, o) - closed) / (1 + closed));
     }
     ok(worst_table < 1e-3, "alpha %g, %g: Lambda of its table within %.1e", alpha_x, alpha_y, worst_table);
     pe_ndf_table_free(tabulated);
@@ -218,10 +218,10 @@ static void test_furnace(pe_ndf_kind kind, double alpha_x, double alpha_y, const
         alone = metal ? reference_furnace((int)kind, alpha_x, alpha_y, 0, 0, local, 900) : expected;
         pe_exact(env, &surface, plus_y, n, o, exact);
         pe_monte_carlo(env, &surface, plus_y, 40000, n, o, drawn);
-        worst[0] = fmax(worst[0], fabs(exact[1] - expected));
-        worst[1] = fmax(worst[1], fabs(drawn[1] - expected));
-        worst[2] = fmax(worst[2], fabs(pe_lobe_albedo(lobe, local) - alone));
-        greatest = fmax(greatest, exact[1]);
+        worst[0] = worst_of(worst[0], fabs(exact[1] - expected));
+        worst[1] = worst_of(worst[1], fabs(drawn[1] - expected));
+        worst[2] = worst_of(worst[2], fabs(pe_lobe_albedo(lobe, local) - alone));
+        greatest = worst_of(greatest, exact[1]);
     }
     ok(worst[0] < (metal ? 1e-3 : 1e-4), "%s %g, %g, %s: exact within %.1e of the furnace's", kinds[kind], alpha_x,
        alpha_y, metal ? metal : "F = 1", worst[0]);
@@ -257,7 +257,7 @@ static void test_exact(pe_ndf_kind kind, double alpha_x, double alpha_y)
         reference_scattering((int)kind, rgb, 256, 128, alpha_x, alpha_y, surface.eta, surface.k, plus_y, n, o,
                              expected);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(exact[c] / expected[c] - 1));
+            worst = worst_of(worst, fabs(exact[c] / expected[c] - 1));
     }
     ok(worst < 1e-3, "%s %g, %g: exact is the plain sum within %.1e", kinds[kind], alpha_x, alpha_y, worst);
     free(rgb);

@@ -148,7 +148,7 @@ static void test_file(const pe_ndf_table *table)
     for (int k = 0; k < 10000; k++) {
         double p = reference_random(&state) - 0.4, q = reference_random(&state) - 0.7;
 
-        worst = fmax(worst, fabs(slope_density(&ndf, p, q) - slope_density(&back, p, q)));
+        worst = worst_of(worst, fabs(slope_density(&ndf, p, q) - slope_density(&back, p, q)));
     }
     ok(worst < 1e-5, "written and read again it is the same within %.1e", worst);
     ok(strcmp(pe_ndf_table_name(again), strrchr(path, '/') + 1) == 0 && !*pe_ndf_table_name(table),

@@ -50,7 +50,7 @@ static double difference_from_formula(const pe_ndf *ndf)
 
             spherical(0.02 * i, j * 0.17453, h);
             expected = reference_density((int)ndf->kind, ndf->alpha_x, ndf->alpha_y, h, t, b, n);
-            worst = fmax(worst, fabs(pe_ndf_evaluate(ndf, h) - expected) / (expected + 1e-250));
+            worst = worst_of(worst, fabs(pe_ndf_evaluate(ndf, h) - expected) / (expected + 1e-250));
         }
     return worst;
 }
@@ -151,7 +151,7 @@ static void test_reach(pe_ndf_kind kind, double alpha_x, double alpha_y, double 
     for (int k = 0; k < 360 * 50 && reach < INFINITY; k++) {
         double beyond = reach * (1 + 1e-9) * pow(1.3, k % 50), phi = 2 * M_PI * k / (360 * 50);
 
-        least = fmin(least, smallness(&ndf, beyond * cos(phi), beyond * sin(phi)));
+        least = least_of(least, smallness(&ndf, beyond * cos(phi), beyond * sin(phi)));
     }
     if (reach == INFINITY) /* nowhere so small */
         m = 1e9, least = limit;

@@ -62,7 +62,7 @@ static void test_against_naive(pe_horizon horizon, const char *name)
         pe_phong(env, exponents[k % 7], horizon, n, r, got);
         naive(rgb, WIDTH, HEIGHT, exponents[k % 7], horizon, n, r, expected);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-3));
+            worst = worst_of(worst, fabs(got[c] - expected[c]) / (expected[c] + 1e-3));
     }
     ok(worst < 1e-7, "horizon %s: within %.1e of every texel's sum", name, worst);
     pe_env_free(env);
@@ -97,11 +97,12 @@ static void test_scales(void)
         double lambda = k / 100.0, exponent = pe_smoothness_exponent(&paper, lambda);
         double as_written = -log(256) / log(cos(atan(6.2 / (lambda * 128))));
 
-        worst = fmax(worst, fabs(exponent / as_written - 1));
-        worst = fmax(worst, fabs(pe_smoothness_lambda(&paper, exponent) / lambda - 1));
-        worst = fmax(worst, fabs(pe_smoothness_lambda(&other, pe_smoothness_exponent(&other, lambda)) / lambda - 1));
-        worst = fmax(worst, fabs(pe_phong_exponent(pe_phong_alpha(exponent)) / exponent - 1));
-        step = fmin(step, exponent - below);
+        worst = worst_of(worst, fabs(exponent / as_written - 1));
+        worst = worst_of(worst, fabs(pe_smoothness_lambda(&paper, exponent) / lambda - 1));
+        worst =
+            worst_of(worst, fabs(pe_smoothness_lambda(&other, pe_smoothness_exponent(&other, lambda)) / lambda - 1));
+        worst = worst_of(worst, fabs(pe_phong_exponent(pe_phong_alpha(exponent)) / exponent - 1));
+        step = least_of(step, exponent - below);
         below = exponent;
     }
     ok(worst < 1e-9 && step >= 0, "lambda, Lambda and alpha go there and back within %.1e", worst);
@@ -131,7 +132,7 @@ static void test_alpha(void)
 
         pe_exact(env, &surface, along, up, up, a);
         pe_phong(env, pe_phong_exponent(alphas[k]), PE_HORIZON_IGNORED, NULL, up, b);
-        worst = fmax(worst, fabs(a[0] - b[0]));
+        worst = worst_of(worst, fabs(a[0] - b[0]));
     }
     ok(worst < 0.02, "a lobe by its alpha gathers within %.4f of the normal distribution's, head on", worst);
     pe_env_free(env);

@@ -78,7 +78,7 @@ static void test_furnace(pe_method method, double alpha_x, double alpha_y, int w
                 o[c] -= pe_dot(n, o) * n[c] * (1 - 1e-15);
         sample_point(maps, &modes[k % MODES], NULL, n, o, rgb);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs(rgb[c] - 1));
+            worst = worst_of(worst, fabs(rgb[c] - 1));
     }
     ok(worst < 1e-6, "white furnace, %s, alpha %g, %g, %d x %d: 1 within %.1e",
        method == PE_METHOD_BASELINE ? "baseline" : "representative", alpha_x, alpha_y, width, height, worst);
@@ -121,12 +121,12 @@ static void test_half_white(int k, int side, pe_accuracy accuracy)
         if (!(pe_dot(n, o) > 0))
             continue;
         sample_point(maps, &modes[0], NULL, n, o, rgb);
-        worst = fmax(worst, rgb[0]);
+        worst = worst_of(worst, rgb[0]);
         sample_point(maps, &modes[3], NULL, n, o, rgb);
-        worst = fmax(worst, rgb[0]);
+        worst = worst_of(worst, rgb[0]);
         if (accuracy == PE_ACCURACY_EXACT)
             pe_exact(env, &pe_maps_get_info(maps)->surface, plus_y, n, o, exact);
-        worst = fmax(worst, exact[0]);
+        worst = worst_of(worst, exact[0]);
     }
     ok(worst < LEAK_MAX, "half-white environment, %s: nothing leaks into normal %d%s (%.1e)",
        accuracy == PE_ACCURACY_FAST ? "fast" : "exact", k, side ? ", opposite" : "", worst);
@@ -181,9 +181,9 @@ static void test_lit_texel(int k, int side)
         pe_reflect(r, facing, o);
         sample_point(maps, &modes[view % 2 ? 0 : 3], NULL, facing, o, rgb);
         if (pe_dot(facing, own) > 0)
-            seen = fmax(seen, rgb[0]);
+            seen = worst_of(seen, rgb[0]);
         else
-            leak = fmax(leak, rgb[0]);
+            leak = worst_of(leak, rgb[0]);
     }
     ok(leak < 1000 * LEAK_MAX && seen > 1,
        "a lit texel %s the equator of normal %d: own side sees %.3g, the other %.3g", side ? "below" : "above", k, seen,
@@ -273,7 +273,7 @@ static void test_continuity(void)
 
         sample_point(maps, NULL, NULL, n, n, rgb);
         for (int c = 0; c < 3 && k; c++)
-            largest = fmax(largest, fabs(rgb[c] - before[c]));
+            largest = worst_of(largest, fabs(rgb[c] - before[c]));
         memcpy(before, rgb, sizeof before);
     }
     ok(largest < 0.002, "linear: no step of %d around the sphere exceeds %.2e", steps, largest);

@@ -71,8 +71,8 @@ static void note_errors(const pe_slopes *slopes, int side, int white, size_t *ne
 
             if ((x * 8 / side + y * 8 / side) % 2 != white)
                 continue;
-            worst[0] = fmax(worst[0], fabs((double)slopes->p[*next] - p));
-            worst[1] = fmax(worst[1], fabs((double)slopes->q[(*next)++] - q));
+            worst[0] = worst_of(worst[0], fabs((double)slopes->p[*next] - p));
+            worst[1] = worst_of(worst[1], fabs((double)slopes->q[(*next)++] - q));
         }
 }
 
@@ -208,8 +208,8 @@ static void test_steps(void)
     for (int i = d.width / 8; i < d.width * 7 / 8; i++) {
         double value = (double)d.values[(size_t)(d.height / 2) * (size_t)d.width + (size_t)i];
 
-        least = fmin(least, value);
-        most = fmax(most, value);
+        least = least_of(least, value);
+        most = worst_of(most, value);
     }
     ok(least > 0.99 * most, "rounded slopes leave no comb: %d cells from %g to %g", d.width, least, most);
     pe_slope_density_free(&d);
@@ -257,7 +257,7 @@ static double distance(const pe_slope_density *d, int along, slope_cdf *cdf, dou
         for (int j = 0; j < others; j++)
             sum += area * (double)(along == 0 ? d->values[(size_t)j * (size_t)d->width + (size_t)i]
                                               : d->values[(size_t)i * (size_t)d->width + (size_t)j]);
-        worst = fmax(worst, fabs(sum - cdf(((2 * i + 2.0) / cells - 1) * d->range[along], a, sigma)));
+        worst = worst_of(worst, fabs(sum - cdf(((2 * i + 2.0) / cells - 1) * d->range[along], a, sigma)));
     }
     return worst;
 }
@@ -359,7 +359,7 @@ static void test_choice(void)
     raw = error_smoothed(&slopes, PE_SMOOTHING_NONE, 0, &given);
     found = error_smoothed(&slopes, PE_SMOOTHING_AUTO, 0, &chosen);
     for (int k = 0; k < 18; k++) /* up to 0.044 */
-        least = fmin(least, error_smoothed(&slopes, PE_SMOOTHING_GIVEN, 0.001 * pow(1.25, k), &given));
+        least = least_of(least, error_smoothed(&slopes, PE_SMOOTHING_GIVEN, 0.001 * pow(1.25, k), &given));
     ok(found < 0.5 * raw, "smoothing by %.4f leaves an error of %.3f, of %.3f without", chosen, found, raw);
     ok(found < 1.2 * least, "the best smoothing would leave %.3f", least);
     pe_slopes_free(&slopes);

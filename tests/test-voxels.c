@@ -67,7 +67,7 @@ static void test_dome(void)
             const double *image = pe_geodesic_vertex(dome.sphere, (int)dome.images[v][g]);
 
             for (int c = 0; c < 3; c++)
-                worst = fmax(worst, fabs(image[c] - (g >> c & 1 ? -1 : 1) * at[(c + g / 8) % 3]));
+                worst = worst_of(worst, fabs(image[c] - (g >> c & 1 ? -1 : 1) * at[(c + g / 8) % 3]));
         }
         descending &= v == 0 || pe_geodesic_vertex(dome.sphere, dome.from_top[v])[1] <=
                                     pe_geodesic_vertex(dome.sphere, dome.from_top[v - 1])[1];
@@ -91,7 +91,7 @@ static void test_shares(void)
         reference_random_direction(&state, d);
         for (int v = 0; v < dome.count; v++)
             sum += pe_geodesic_share(dome.sphere, v) * pow(pe_dot(d, pe_geodesic_vertex(dome.sphere, v)), 8);
-        worst = fmax(worst, fabs(9 * sum - 1));
+        worst = worst_of(worst, fabs(9 * sum - 1));
     }
     ok(worst < 0.01, "sums over 812 vertices, each with its share of the sphere, are integrals within %.4f", worst);
     pe_dome_free(&dome);
@@ -120,13 +120,13 @@ static void test_weights(double threshold)
             all += power * pe_geodesic_share(sphere, v);
             kept += power > threshold ? power * pe_geodesic_share(sphere, v) : 0;
         }
-        worst_kept = fmax(worst_kept, fabs((double)w->kept[k] - kept / all));
+        worst_kept = worst_of(worst_kept, fabs((double)w->kept[k] - kept / all));
         for (size_t i = w->first[k]; i < w->first[k + 1]; i++) {
             int v = (int)w->vertex[i];
             double power = pow(pe_dot(t, pe_geodesic_vertex(sphere, v)), exponent);
 
-            least = fmin(least, power);
-            worst = fmax(worst, fabs((double)w->weight[i] - power * pe_geodesic_share(sphere, v) / kept));
+            least = least_of(least, power);
+            worst = worst_of(worst, fabs((double)w->weight[i] - power * pe_geodesic_share(sphere, v) / kept));
         }
     }
     ok(worst < 1e-7 && worst_kept < 1e-6 && least > threshold,
@@ -191,7 +191,7 @@ static difference compare(const pe_maps *maps, const pe_env *env)
         pe_phong(env, pe_smoothness_exponent(scale, point.roughness), PE_HORIZON_IGNORED, NULL, r, exact);
         for (int c = 0; c < 3; c++) {
             d.mean += fabs(got[c] - exact[c]) / (3 * TRIES);
-            d.greatest = fmax(d.greatest, fabs(got[c] - exact[c]));
+            d.greatest = worst_of(d.greatest, fabs(got[c] - exact[c]));
         }
     }
     return d;
@@ -220,7 +220,7 @@ static double difference_of_images(const pe_maps *a, const pe_maps *b)
 
         pe_maps_image_size(a, k, &width, &height);
         for (int i = 0; i < 3 * width * height; i++)
-            worst = fmax(worst, fabs((double)pe_maps_image(a, k)[i] - (double)pe_maps_image(b, k)[i]));
+            worst = worst_of(worst, fabs((double)pe_maps_image(a, k)[i] - (double)pe_maps_image(b, k)[i]));
     }
     return worst;
 }
@@ -310,7 +310,7 @@ static void test_globe(void)
         got = pe_globe_look(coefficients, W, H, (float)u, (float)v);
         wave(d, expected);
         for (int c = 0; c < 3; c++)
-            worst = fmax(worst, fabs((double)got[c] - expected[c]));
+            worst = worst_of(worst, fabs((double)got[c] - expected[c]));
     }
     ok(worst < 0.003, "a spline over a lat-long picture follows waves within %.1e, over the poles and the seam", worst);
     free(coefficients);
@@ -333,7 +333,7 @@ static void test_layering(void)
                 one += (double)weights[i];
                 square += (double)weights[i] * (first + i) * (first + i);
             }
-            worst = fmax(worst, fmax(fabs(one - 1), fabs(square - place * place)));
+            worst = worst_of(worst, worst_of(fabs(one - 1), fabs(square - place * place)));
         }
     ok(worst < 2e-5, "layers are mixed along a curve that follows parabolas within %.1e", worst);
 }
