@@ -303,6 +303,8 @@ for option in "--alpha 0.1" "--normals 42" "--angles 8" "--weight microfacet" "-
     like "$("$PREFENV" bake env.exr -o no.exr --method layers $option 2>&1)" \
         "${option%% *} does not go with --method layers and voxels" "layers: $option is refused"
 done
+like "$("$PREFENV" bake env.exr -o grades.exr --method layers --ndf beckmann --normals 12 --size 12x12 2>&1)" \
+    'grades' "layers of --ndf beckmann are grades"
 like "$("$PREFENV" bake env.exr -o no.exr --method voxels --error 0.01 2>&1)" \
     '--error does not go with --method voxels' "voxels: --error is refused"
 like "$("$PREFENV" bake env.exr -o fine.exr --method layers --error 0.0005 2>&1 | grep warning)" \

@@ -147,6 +147,16 @@ done <<'TABLE'
 --method best|not known; what there is: hemispheres, representative, baseline
 --threads 0|out of range: 1 to 256
 --exact --fast|--exact and --fast exclude each other
+--method layers --direction 1,0,0|--direction does not go with --method layers and voxels
+--method layers --weight ndf|--weight does not go with --method layers and voxels
+--method voxels --k 1,1,1|--k does not go with --method layers and voxels
+--method voxels --ndf beckmann|--ndf does not go with --method voxels
+--window 3|--window is for --method layers and voxels
+--levels 256|--levels is for --method layers and voxels
+--method baseline --normals 92|--normals does not go with --method baseline
+--method voxels --exact --weights w.bin|--weights is for a table of weights, which --exact goes without
+--method voxels --exact --threshold 0.1|--threshold is for a table of weights
+--method voxels --exact --no-renormalise|--no-renormalise is for a table of weights
 TABLE
 is "$(ls)" "" "nothing was written"
 

@@ -31,6 +31,7 @@ typedef struct bake_settings {
     const char *frames, *shard;
     int force;
     int threads, json, quiet;
+    cli_given given;
 } bake_settings;
 
 static const cli_operand operands[] = {
@@ -119,45 +120,49 @@ static int has_roughness(const bake_settings *settings)
     return settings->method == PE_METHOD_LAYERS || settings->method == PE_METHOD_VOXELS;
 }
 
-/* What has no meaning for surfaces of any roughness, and what has none for others. */
-static int check_roughness(const bake_settings *settings)
+/* What says nothing with the method: the lobe of layers and voxels is Phong's, and has its width from each lookup. */
+static int check_method(const bake_settings *settings)
 {
-    const struct {
-        const char *option;
-        int given, for_layers, for_voxels, for_others;
-    } rows[] = {
-        { "alpha", settings->surface.alpha[0] > 0, 0, 0, 1 },
-        { "aspect", settings->surface.aspect > 0, 0, 0, 1 },
-        { "normals", settings->normals > 0, 0, 0, 1 },
-        { "angles", settings->angles > 1, 0, 0, 1 },
-        { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0, 0, 1 },
-        { "material", settings->surface.material != NULL, 0, 0, 1 },
-        { "error", settings->error > 0, 1, 0, 1 },
-        { "quality", settings->quality != PE_QUALITY_NORMAL, 1, 0, 1 },
-        { "threshold", settings->threshold > 0, 0, 1, 0 },
-        { "no-renormalise", settings->no_renormalise, 0, 1, 0 },
-        { "weights", settings->weights != NULL, 0, 1, 0 },
+    static const char by_lookup[] = "does not go with --method layers and voxels, whose roughness is said at each "
+                                    "lookup; leave it out",
+                      phong[] = "does not go with --method voxels, which hold Phong's lobe; leave it out, or take "
+                                "--method grades",
+                      one_map[] = "does not go with --method baseline, which is one map; leave it out",
+                      scale[] = "is for --method layers and voxels; leave it out or give both",
+                      size_alone[] = "does not go with --method voxels, whose --size says all; leave it out",
+                      table[] = "is for --method voxels; leave it out or give both",
+                      no_table[] = "is for a table of weights, which --exact goes without; leave one of them out";
+    const int voxels = settings->method == PE_METHOD_VOXELS, rough = has_roughness(settings);
+    const cli_rule rules[] = {
+        { "ndf", !voxels || strcmp(settings->surface.ndf, "phong") == 0, phong },
+        { "alpha", !rough, by_lookup },
+        { "aspect", !rough, by_lookup },
+        { "direction", !rough, by_lookup },
+        { "weight", !rough, by_lookup },
+        { "material", !rough, by_lookup },
+        { "ior", !rough, by_lookup },
+        { "k", !rough, by_lookup },
+        { "normals", !rough, by_lookup },
+        { "normals", settings->method != PE_METHOD_BASELINE, one_map },
+        { "angles", !rough, by_lookup },
+        { "window", rough, scale },
+        { "levels", rough, scale },
+        { "error", !voxels, size_alone },
+        { "quality", !voxels, size_alone },
+        { "threshold", voxels, table },
+        { "threshold", !settings->exact, no_table },
+        { "no-renormalise", voxels, table },
+        { "no-renormalise", !settings->exact, no_table },
+        { "weights", voxels, table },
+        { "weights", !settings->exact, no_table },
     };
 
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        int allowed = settings->method == PE_METHOD_LAYERS   ? rows[k].for_layers
-                      : settings->method == PE_METHOD_VOXELS ? rows[k].for_voxels
-                                                             : rows[k].for_others;
+    return cli_check_rules(&bake_command, settings->given, rules, sizeof rules / sizeof *rules);
+}
 
-        if (!rows[k].given || allowed)
-            continue;
-        if (rows[k].for_voxels)
-            cli_error("bake", "--%s is for --method voxels; leave it out or give both", rows[k].option);
-        else if (rows[k].for_layers)
-            cli_error("bake", "--%s does not go with --method voxels, whose --size says all; leave it out",
-                      rows[k].option);
-        else
-            cli_error("bake",
-                      "--%s does not go with --method layers and voxels, whose roughness is said at each lookup; "
-                      "leave it out",
-                      rows[k].option);
-        return CLI_FAILURE;
-    }
+/* The voxels along an edge are as many one way as another. */
+static int check_size(const bake_settings *settings)
+{
     if (has_roughness(settings) && settings->size[0] != settings->size[1]) {
         cli_error("bake", "--size %dx%d: of layers and voxels it is one number, such as 128", settings->size[0],
                   settings->size[1]);
@@ -171,7 +176,7 @@ static int choose_method(bake_settings *settings)
 {
     const double *alpha = settings->surface.alpha;
 
-    if (settings->method == PE_METHOD_LAYERS && strcmp(settings->surface.ndf, "beckmann") != 0 &&
+    if (settings->method == PE_METHOD_LAYERS && cli_is_given(&bake_command, settings->given, "ndf") &&
         strcmp(settings->surface.ndf, "phong") != 0)
         settings->method = PE_METHOD_GRADES;
     if (alpha[2] > 0 && (settings->method == PE_METHOD_LAYERS || (!settings->method && !settings->paper)))
@@ -206,7 +211,7 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "%s: no such file; give --frames FIRST-LAST if it is a sequence", settings->environment);
         return CLI_FAILURE;
     }
-    return check_roughness(settings);
+    return check_method(settings) == CLI_SUCCESS ? check_size(settings) : CLI_FAILURE;
 }
 
 static void set_options(const bake_settings *settings, const pe_surface *surface, pe_bake_options *out)
@@ -389,7 +394,7 @@ static int bake_run(int argc, char **argv)
     batch b = { 0 };
     pe_surface surface;
     pe_ndf_table *table;
-    int result = cli_parse(&bake_command, argc, argv, &settings);
+    int result = cli_parse(&bake_command, argc, argv, &settings, &settings.given);
 
     if (result != CLI_PROCEED)
         return result;

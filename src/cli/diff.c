@@ -206,7 +206,7 @@ static int diff_run(int argc, char **argv)
 {
     diff_settings settings = { .limit = -1, .relative_limit = -1 };
     pictures all;
-    int result = cli_parse(&diff_command, argc, argv, &settings);
+    int result = cli_parse(&diff_command, argc, argv, &settings, NULL);
 
     if (result != CLI_PROCEED)
         return result;

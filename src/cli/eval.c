@@ -69,7 +69,7 @@ static int eval_run(int argc, char **argv)
     eval_settings settings = { 0 };
     pe_maps *maps;
     pe_error error;
-    int result = cli_parse(&eval_command, argc, argv, &settings);
+    int result = cli_parse(&eval_command, argc, argv, &settings, NULL);
 
     if (result != CLI_PROCEED)
         return result;

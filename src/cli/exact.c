@@ -170,7 +170,7 @@ static int exact_run(int argc, char **argv)
     exact_settings settings = { 0 };
     pe_surface surface;
     pe_ndf_table *table;
-    int result = cli_parse(&exact_command, argc, argv, &settings);
+    int result = cli_parse(&exact_command, argc, argv, &settings, NULL);
 
     if (result != CLI_PROCEED)
         return result;

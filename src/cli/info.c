@@ -175,7 +175,7 @@ static int info_run(int argc, char **argv)
 {
     info_settings settings = { 0 };
     pe_error error;
-    int proceed = cli_parse(&info_command, argc, argv, &settings);
+    int proceed = cli_parse(&info_command, argc, argv, &settings, NULL);
 
     if (proceed != CLI_PROCEED)
         return proceed;

@@ -115,7 +115,7 @@ static int surface_run(int argc, char **argv)
     surface_settings settings = { 0 };
     pe_machining_options machining;
     pe_error error;
-    int proceed = cli_parse(&surface_command, argc, argv, &settings), kind;
+    int proceed = cli_parse(&surface_command, argc, argv, &settings, NULL), kind;
 
     if (proceed != CLI_PROCEED)
         return proceed;

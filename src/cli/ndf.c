@@ -247,7 +247,7 @@ static int ndf_run(int argc, char **argv)
     ndf_settings settings = { 0 };
     findings found = { 0 };
     pe_error error;
-    int proceed = cli_parse(&ndf_command, argc, argv, &settings);
+    int proceed = cli_parse(&ndf_command, argc, argv, &settings, NULL);
 
     if (proceed != CLI_PROCEED)
         return proceed;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OPTIONS_MAX 40
+#define OPTIONS_MAX 40 /* as many as cli_given has bits, at most */
 #define LONG_VALUE 256 /* getopt_long's value of option i is LONG_VALUE + i; letters lie below */
 #define HELP_VALUE 'h'
 
@@ -146,9 +146,10 @@ static int check_required(const cli_command *command, const void *settings)
     return CLI_PROCEED;
 }
 
-int cli_parse(const cli_command *command, int argc, char **argv, void *settings)
+int cli_parse(const cli_command *command, int argc, char **argv, void *settings, cli_given *given)
 {
     getopt_tables tables = { 0 };
+    cli_given rows = 0;
     int found;
 
     fill_tables(command, &tables);
@@ -169,7 +170,10 @@ int cli_parse(const cli_command *command, int argc, char **argv, void *settings)
         }
         if (cli_store(command, row, optarg, settings) != CLI_SUCCESS)
             return CLI_FAILURE;
+        rows |= 1ULL << (row - command->options);
     }
+    if (given)
+        *given = rows;
     if (store_operands(command, argc - optind, argv + optind, settings) != CLI_PROCEED)
         return CLI_FAILURE;
     return check_required(command, settings);

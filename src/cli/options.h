@@ -57,9 +57,26 @@ enum { CLI_RANGE_BYTES = 64 };
 /* What cli_parse returns when the command is to go on. */
 enum { CLI_PROCEED = -1 };
 
-/* Fills *settings, which must be zeros, from the table's presets and the arguments.  Returns CLI_PROCEED; or an exit
- * code: the help was asked for and printed, or something is wrong and one error was printed. */
-int cli_parse(const cli_command *command, int argc, char **argv, void *settings);
+/* Which options were given, be it with the value that they have anyway: bit i stands for the table's i-th. */
+typedef unsigned long long cli_given;
+
+/* Fills *settings, which must be zeros, from the table's presets and the arguments, and *given unless it is NULL.
+ * Returns CLI_PROCEED; or an exit code: the help was asked for and printed, or something is wrong and one error was
+ * printed. */
+int cli_parse(const cli_command *command, int argc, char **argv, void *settings, cli_given *given);
+
+/* Whether an option of the command's table was given. */
+int cli_is_given(const cli_command *command, cli_given given, const char *option);
+
+/* An option that says nothing where `allowed` is 0: so that none is ignored in silence. */
+typedef struct cli_rule {
+    const char *option; /* without the dashes */
+    int allowed;
+    const char *why; /* what is said after it, with the way out */
+} cli_rule;
+
+/* CLI_FAILURE, with its error printed, if an option was given that one of the rules does not allow. */
+int cli_check_rules(const cli_command *command, cli_given given, const cli_rule *rules, size_t count);
 
 /* Stores the value `text` of an option.  CLI_FAILURE, with its error printed, if it is not acceptable. */
 int cli_store(const cli_command *command, const cli_option *option, const char *text, void *settings);
