@@ -98,6 +98,9 @@ like "$(phong_of "0 0 1 0 1 1 1" --size 55)" "size 55 is not an even number from
 
 # ---- maps of many roughnesses ----
 
+like "$("$PREFENV" eval spot.pe.exr --horizon dark </dev/null 2>&1)" "--horizon is for maps of the methods layers and" \
+    "eval of other maps: --horizon is refused"
+
 for method in layers voxels; do
     "$PREFENV" bake spot.exr -o $method.exr --method $method --size 32 --quiet || bail_out "bake --method $method"
     got=$(printf '%s 0.1\n' "$lit" | "$PREFENV" eval $method.exr)
@@ -107,6 +110,8 @@ for method in layers voxels; do
         "$PREFENV" eval $method.exr --horizon dark)
     is "$(holds "0.5 < ${dark%% *} / ${got%% *} && ${dark%% *} / ${got%% *} < 0.6")" 1 \
         "eval of $method --horizon: half of the lobe is below a surface seen along it"
+    like "$("$PREFENV" eval $method.exr --interpolation linear </dev/null 2>&1)" "--interpolation is between normals" \
+        "eval of $method: --interpolation is refused"
     is "$(printf '0 0 1 0 1 1 2\n0 0 1 0 1 1 1\n' | "$PREFENV" eval $method.exr | uniq | wc -l)" 1 \
         "eval of $method: beyond 1 it is 1"
     like "$(echo '0 0 1 0 1 1' | "$PREFENV" eval $method.exr 2>&1)" "seven are wanted: nx ny nz ox oy oz roughness" \

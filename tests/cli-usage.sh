@@ -85,6 +85,9 @@ refused "unknown command" "unknown command 'bakke'; did you mean 'bake'" bakke
 refused "a command like no other" "unknown command 'sing'; see 'prefenv --help'" sing
 refused "unknown option before the command" "unknown option '--versoin'; did you mean '--version'" --versoin
 refused "help of an unknown command" "unknown command 'evil'; did you mean 'eval'" help evil
+refused "more than --version" "'--bogus' is one argument too many" --version --bogus
+refused "more than --help" "'bake' is one argument too many" --help bake
+refused "more than help of a command" "'zzz' is one argument too many" help bake zzz
 refused "unknown option" "bake: unknown option --nromals; did you mean --normals" bake x.hdr -o y.exr --nromals 42
 refused "unknown option like no other" "bake: unknown option --frobnicate; see 'prefenv bake --help'" bake --frobnicate
 refused "unknown letter" "bake: unknown option -x; see" bake --quiet -x
@@ -162,6 +165,16 @@ is "$(ls)" "" "nothing was written"
 
 refused "exponent without weighted" "--exponent is for --interpolation weighted" eval x.exr --exponent 50
 refused "unknown interpolation" "what there is: nearest, weighted, linear" eval x.exr --interpolation cubic
+
+for option in "--ndf beckmann" "--direction 1,0,0" "--aspect 2" "--ior 1,1,1"; do
+    # shellcheck disable=SC2086 # words
+    refused "exact --phong $option" "exact: ${option%% *} does not go with --phong" exact x.hdr --phong $option
+done
+for option in "--size 64" "--window 6.2" "--levels 100" "--horizon ignored"; do
+    # shellcheck disable=SC2086 # words
+    refused "exact $option" "exact: ${option%% *} is for --phong" exact x.hdr $option
+done
+refused "amplify without a picture" "diff: --amplify is for the picture of differences" diff a.exr b.exr --amplify 4
 
 like "$(out eval --help | tr '\n' ' ')" "'nx ny nz ox oy oz dx dy dz', with the brush direction" \
     "eval says that nine will do"

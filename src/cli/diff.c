@@ -15,6 +15,7 @@ typedef struct diff_settings {
     const char *image, *reference, *mask, *output;
     double amplify, limit, relative_limit;
     int json, quiet;
+    cli_given given;
 } diff_settings;
 
 static const cli_operand operands[] = {
@@ -202,15 +203,25 @@ static int check_output(const diff_settings *settings)
     return cli_check_output("diff", settings->output, inputs);
 }
 
+static int check_settings(const diff_settings *settings)
+{
+    const cli_rule amplify = { "amplify", settings->output != NULL,
+                               "is for the picture of differences; give -o DIFF.png, too, or leave it out" };
+
+    if (cli_check_rules(&diff_command, settings->given, &amplify, 1) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    return settings->output ? check_output(settings) : CLI_SUCCESS;
+}
+
 static int diff_run(int argc, char **argv)
 {
     diff_settings settings = { .limit = -1, .relative_limit = -1 };
     pictures all;
-    int result = cli_parse(&diff_command, argc, argv, &settings, NULL);
+    int result = cli_parse(&diff_command, argc, argv, &settings, &settings.given);
 
     if (result != CLI_PROCEED)
         return result;
-    if (settings.output && check_output(&settings) != CLI_SUCCESS)
+    if (check_settings(&settings) != CLI_SUCCESS)
         return CLI_FAILURE;
     memset(&all, 0, sizeof all);
     result = read_all(&settings, &all);

@@ -9,6 +9,7 @@ typedef struct eval_settings {
     int interpolation;
     double exponent;
     int horizon, threads;
+    cli_given given;
 } eval_settings;
 
 static const cli_operand operands[] = { { "MAPS", offsetof(eval_settings, maps), "a maps file" }, { NULL, 0, NULL } };
@@ -64,12 +65,28 @@ static int answer_lines(const eval_settings *settings, const pe_maps *maps)
     return lines_run(&job);
 }
 
+/* What says nothing of these maps. */
+static int check_method(const eval_settings *settings, const pe_maps *maps)
+{
+    static const char no_normals[] = "is between normals, of which this file's method has none; leave it out",
+                      not_phong[] = "is for maps of the methods layers and voxels, whose lobe knows no surface; leave "
+                                    "it out";
+    const pe_method method = pe_maps_get_info(maps)->method;
+    const int phong = method == PE_METHOD_LAYERS || method == PE_METHOD_VOXELS;
+    const cli_rule rules[] = {
+        { "interpolation", !phong && method != PE_METHOD_BASELINE, no_normals },
+        { "horizon", phong, not_phong },
+    };
+
+    return cli_check_rules(&eval_command, settings->given, rules, sizeof rules / sizeof *rules);
+}
+
 static int eval_run(int argc, char **argv)
 {
     eval_settings settings = { 0 };
     pe_maps *maps;
     pe_error error;
-    int result = cli_parse(&eval_command, argc, argv, &settings, NULL);
+    int result = cli_parse(&eval_command, argc, argv, &settings, &settings.given);
 
     if (result != CLI_PROCEED)
         return result;
@@ -81,7 +98,9 @@ static int eval_run(int argc, char **argv)
         cli_error("eval", "%s", error.message);
         return CLI_FAILURE;
     }
-    result = answer_lines(&settings, maps);
+    result = check_method(&settings, maps);
+    if (result == CLI_SUCCESS)
+        result = answer_lines(&settings, maps);
     pe_maps_free(maps);
     return result;
 }

@@ -14,6 +14,7 @@ typedef struct exact_settings {
     int phong, horizon, size;
     double window, levels;
     int threads, quiet;
+    cli_given given;
 } exact_settings;
 
 static const cli_operand operands[] = {
@@ -131,27 +132,18 @@ static int answer(const exact_settings *settings, const pe_surface *surface)
 /* What says how Phong's lobe is meant, and what says that another one is. */
 static int check_lobe(const exact_settings *settings)
 {
-    const struct {
-        const char *option;
-        int given, for_phong;
-    } rows[] = {
-        { "horizon", settings->horizon != PE_HORIZON_IGNORED, 1 },
-        { "alpha", settings->surface.alpha[0] > 0, 0 },
-        { "aspect", settings->surface.aspect > 0, 0 },
-        { "weight", settings->surface.weight != PE_WEIGHT_NDF, 0 },
-        { "material", settings->surface.material != NULL, 0 },
+    static const char with[] = "is for --phong; give both, or neither",
+                      without[] = "does not go with --phong, whose roughness is said at each line; leave one of "
+                                  "them out";
+    const int phong = settings->phong;
+    const cli_rule rules[] = {
+        { "size", phong, with },         { "window", phong, with },        { "levels", phong, with },
+        { "horizon", phong, with },      { "ndf", !phong, without },       { "alpha", !phong, without },
+        { "aspect", !phong, without },   { "direction", !phong, without }, { "weight", !phong, without },
+        { "material", !phong, without }, { "ior", !phong, without },       { "k", !phong, without },
     };
 
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        if (!rows[k].given || rows[k].for_phong == settings->phong)
-            continue;
-        cli_error("exact",
-                  rows[k].for_phong ? "--%s is for --phong; give both, or neither"
-                                    : "--%s does not go with --phong, whose roughness is said at each line",
-                  rows[k].option);
-        return CLI_FAILURE;
-    }
-    return CLI_SUCCESS;
+    return cli_check_rules(&exact_command, settings->given, rules, sizeof rules / sizeof *rules);
 }
 
 static int check_scale(const exact_settings *settings)
@@ -170,7 +162,7 @@ static int exact_run(int argc, char **argv)
     exact_settings settings = { 0 };
     pe_surface surface;
     pe_ndf_table *table;
-    int result = cli_parse(&exact_command, argc, argv, &settings, NULL);
+    int result = cli_parse(&exact_command, argc, argv, &settings, &settings.given);
 
     if (result != CLI_PROCEED)
         return result;

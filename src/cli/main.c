@@ -65,6 +65,18 @@ static int print_overview(void)
     return cli_flush(NULL);
 }
 
+static int refuse_more(const char *word)
+{
+    cli_error(NULL, "'%s' is one argument too many; see 'prefenv --help'", word);
+    return CLI_FAILURE;
+}
+
+static int print_version(void)
+{
+    puts("prefenv " PE_VERSION);
+    return cli_flush(NULL);
+}
+
 /* `prefenv help` and `prefenv help COMMAND` */
 static int run_help(int argc, char **argv)
 {
@@ -75,6 +87,8 @@ static int run_help(int argc, char **argv)
     command = find_command(argv[1]);
     if (!command)
         return refuse_command(argv[1]);
+    if (argc > 2)
+        return refuse_more(argv[2]);
     cli_help(command);
     return cli_flush(NULL);
 }
@@ -90,11 +104,9 @@ int main(int argc, char **argv)
         return CLI_FAILURE;
     }
     if (strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "--help") == 0)
-        return print_overview();
-    if (strcmp(argv[1], "--version") == 0) {
-        puts("prefenv " PE_VERSION);
-        return cli_flush(NULL);
-    }
+        return argc > 2 ? refuse_more(argv[2]) : print_overview();
+    if (strcmp(argv[1], "--version") == 0)
+        return argc > 2 ? refuse_more(argv[2]) : print_version();
     if (strcmp(argv[1], "help") == 0)
         return run_help(argc - 1, argv + 1);
     command = find_command(argv[1]);
