@@ -184,6 +184,19 @@ refused "a folder" "folder: is a folder" folder
 refused "a folder that is missing" "nowhere/x.exr: cannot write into nowhere: No such file" nowhere/x.exr
 refused "a file as a folder" "env.hdr/x.exr: env.hdr is not a folder" env.hdr/x.exr
 refused "no name" "the output's name is empty" ""
+ln -s nowhere/x dangling.exr
+# Before anything is read.
+like "$("$PREFENV" bake missing.hdr -o dangling.exr 2>&1)" "bake: dangling.exr: is a link to nothing; remove it" \
+    "a link to nothing: says so"
+weights() # NAME PATTERN FILE
+{
+    like "$("$PREFENV" bake missing.hdr -o x.exr --method voxels --weights "$3" 2>&1)" "$2" "--weights $1: says so"
+}
+weights "in a folder that is missing" "bake: nowhere/w.bin: cannot write into nowhere" nowhere/w.bin
+weights "as a link to nothing" "bake: dangling.exr: is a link to nothing" dangling.exr
+weights "of the maps file's name" "bake: x.exr: is the maps file and that of --weights" x.exr
+weights "without a name" "bake: the name of --weights is empty" ""
+rm dangling.exr
 refused "a PNG" "x.y.png: what is written is an OpenEXR; name it so, x.y.exr" x.y.png
 refused "a TIFF" "x.TIFF: what is written is an OpenEXR; name it so, x.exr" x.TIFF
 refused "a full device" "/dev/full: cannot write: No space left on device" /dev/full

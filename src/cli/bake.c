@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define NORMALS_MIN 12    /* 10 f^2 + 2 for f = 1 */
 #define NORMALS_MAX 10242 /* and for f = 32 */
@@ -171,6 +172,22 @@ static int check_size(const bake_settings *settings)
     return CLI_SUCCESS;
 }
 
+/* A table of weights takes a while to make: can it be written then? */
+static int check_weights(const bake_settings *settings)
+{
+    if (!settings->weights || access(settings->weights, F_OK) == 0)
+        return CLI_SUCCESS;
+    if (!*settings->weights) {
+        cli_error("bake", "the name of --weights is empty; give a file, or leave it out");
+        return CLI_FAILURE;
+    }
+    if (strcmp(settings->weights, settings->output) == 0) {
+        cli_error("bake", "%s: is the maps file and that of --weights; give two names", settings->output);
+        return CLI_FAILURE;
+    }
+    return cli_check_new("bake", settings->weights);
+}
+
 /* A range of roughnesses, or layers of what is not Phong's lobe, are grades. */
 static int choose_method(bake_settings *settings)
 {
@@ -211,7 +228,9 @@ static int check_settings(const bake_settings *settings)
         cli_error("bake", "%s: no such file; give --frames FIRST-LAST if it is a sequence", settings->environment);
         return CLI_FAILURE;
     }
-    return check_method(settings) == CLI_SUCCESS ? check_size(settings) : CLI_FAILURE;
+    if (check_method(settings) != CLI_SUCCESS || check_size(settings) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    return check_weights(settings);
 }
 
 static void set_options(const bake_settings *settings, const pe_surface *surface, pe_bake_options *out)

@@ -33,7 +33,10 @@ int cli_flush(const char *command);
  * `inputs` (ended by NULL).  CLI_FAILURE, with its error printed, if not. */
 int cli_check_output(const char *command, const char *output, const char *const *inputs);
 
-/* The same for what is written as an OpenEXR, whose name must not end like a picture of another kind. */
+/* The same of a file that is not there and has a name. */
+int cli_check_new(const char *command, const char *output);
+
+/* As cli_check_output, for what is written as an OpenEXR, whose name must not end like a picture of another kind. */
 int cli_check_exr_output(const char *command, const char *output, const char *const *inputs);
 
 #endif

@@ -39,6 +39,26 @@ static int check_folder(const char *command, const char *output)
     return result;
 }
 
+int cli_check_new(const char *command, const char *output)
+{
+    struct stat link;
+
+    if (lstat(output, &link) != 0)
+        return check_folder(command, output);
+    cli_error(command, "%s: is a link to nothing; remove it or make what it points to", output);
+    return CLI_FAILURE;
+}
+
+/* Of a link, what it points to is replaced, in a folder that may be another. */
+static int check_replaced(const char *command, const char *output)
+{
+    char *target = realpath(output, NULL);
+    int result = check_folder(command, target ? target : output);
+
+    free(target);
+    return result;
+}
+
 int cli_check_output(const char *command, const char *output, const char *const *inputs)
 {
     struct stat target, source;
@@ -48,7 +68,7 @@ int cli_check_output(const char *command, const char *output, const char *const 
         return CLI_FAILURE;
     }
     if (stat(output, &target) != 0)
-        return check_folder(command, output);
+        return cli_check_new(command, output);
     if (S_ISDIR(target.st_mode)) {
         cli_error(command, "%s: is a folder; name a file in it", output);
         return CLI_FAILURE;
@@ -60,7 +80,7 @@ int cli_check_output(const char *command, const char *output, const char *const 
             cli_error(command, "%s: is the input %s itself; give another name after -o", output, *inputs);
             return CLI_FAILURE;
         }
-    return check_folder(command, output);
+    return check_replaced(command, output);
 }
 
 /* What a name that ends so promises to be. */
