@@ -43,6 +43,20 @@ newer()
     done
 }
 
+# written TARGET COMMAND...: what the command prints becomes TARGET, whole or not at all, whoever else makes it in the
+# meantime: `make -j` runs several of these scripts at once.
+written()
+{
+    local target=$1 part=$1.$$.tmp
+
+    shift
+    (
+        trap 'rm -f "$part"' EXIT
+        trap 'exit 130' INT TERM HUP
+        "$@" >"$part" && mv "$part" "$target"
+    )
+}
+
 # make_mesh FOLDER: FOLDER/bunny_mesh.inc out of bunny.obj, if it is not there yet or out of date
 make_mesh()
 {
@@ -50,8 +64,7 @@ make_mesh()
 
     [ -f "$PREFENV_DATA/bunny.obj" ] || die "$PREFENV_DATA/bunny.obj does not exist: run ./bootstrap, which fetches it"
     newer "$target" "$PREFENV_DATA/bunny.obj" "$script" && return
-    awk -f "$script" "$PREFENV_DATA/bunny.obj" >"$target.tmp" || die 'bunny.obj could not be converted; see above'
-    mv "$target.tmp" "$target"
+    written "$target" awk -f "$script" "$PREFENV_DATA/bunny.obj" || die 'bunny.obj could not be converted; see above'
 }
 
 # make_teapot FOLDER: FOLDER/teapot_mesh.inc out of the 32 patches, likewise
@@ -60,8 +73,7 @@ make_teapot()
     local target=$1/teapot_mesh.inc script=$srcdir/scenes/patches2mesh.awk patches=$srcdir/scenes/teapot.patches
 
     newer "$target" "$patches" "$script" && return
-    awk -f "$script" "$patches" >"$target.tmp" || die 'teapot.patches could not be converted; see above'
-    mv "$target.tmp" "$target"
+    written "$target" awk -f "$script" "$patches" || die 'teapot.patches could not be converted; see above'
 }
 
 # The renderer, quietly and without the user's own povray.ini.  What it says goes into LOG, whose end is shown if it
