@@ -40,8 +40,9 @@ measure()
     local environment=$1 reading baking
 
     shift
-    reading=$(cpu_seconds_of "$PREFENV" exact "$environment" --quiet)
-    baking=$(cpu_seconds_of "$PREFENV" bake "$environment" -o maps.exr --normals 162 --fast --quiet "$@")
+    # Substitutions of substitutions do not end where something fails, unless they are told to.
+    reading=$(cpu_seconds_of "$PREFENV" exact "$environment" --quiet) || return
+    baking=$(cpu_seconds_of "$PREFENV" bake "$environment" -o maps.exr --normals 162 --fast --quiet "$@") || return
     awk -v all="$baking" -v reading="$reading" 'BEGIN { printf "%.3f", all - reading }'
 }
 
@@ -49,13 +50,14 @@ measure()
 for width in $sizes; do
     oiiotool "$hdri" --resize "${width}x$((width / 2))" -d float --compression none -o environment.exr >/dev/null ||
         die "oiiotool could not make an environment $width wide; see above"
-    echo "$((width * width / 2)) $(measure environment.exr --size 32x32) ${width}x$((width / 2))" >>by_environment.txt
+    seconds=$(measure environment.exr --size 32x32) || exit 1
+    echo "$((width * width / 2)) $seconds ${width}x$((width / 2))" >>by_environment.txt
     tail -n 1 by_environment.txt | sed 's/^/environment /' >&2
 done
 : >by_maps.txt
 for width in $texels; do
-    echo "$((162 * width * width)) $(measure "$hdri" --size "${width}x$width") 162 maps of ${width}x$width" \
-        >>by_maps.txt
+    seconds=$(measure "$hdri" --size "${width}x$width") || exit 1
+    echo "$((162 * width * width)) $seconds 162 maps of ${width}x$width" >>by_maps.txt
     tail -n 1 by_maps.txt | sed 's/^/maps /' >&2
 done
 

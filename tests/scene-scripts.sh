@@ -1,5 +1,6 @@
 #!/bin/bash
-# The scripts behind figures: several may make the same thing at once.
+# The scripts behind figures and measurements: several may make the same thing at once, and a command that fails is no
+# measurement.
 
 . "$srcdir/tests/tap.sh"
 
@@ -7,6 +8,8 @@ work=$(mktemp -d) || bail_out 'mktemp -d failed'
 trap 'rm -rf "$work"' EXIT
 top=$(cd "$srcdir" && pwd)
 cd "$work" || bail_out "$work cannot be entered"
+
+# ---- make -j ----
 
 # A teapot by an awk that takes its time.
 awk='command awk "$@" && sleep 0.5'
@@ -36,5 +39,18 @@ awk='echo half a mesh && false'
 fails 'a mesh that cannot be made' teapot
 is "$(ls)" 'both.inc
 first.log' 'leaves nothing'
+
+# ---- make bench-scaling ----
+
+if command -v oiiotool >/dev/null && [ -f "${PREFENV_DATA:-}/hdri/courtyard.exr" ]; then
+    printf '#!/bin/sh\nexit 1\n' >broken
+    chmod +x broken
+    fails 'a bake that fails is no measurement of 0 s' env PREFENV="$work/broken" POVRAY_PREFENV=none srcdir="$top" \
+        top_builddir="$work" SIZES=16 TEXELS=16 bash "$top/bench/scaling.sh"
+    like "$tap_output" 'make bench-scaling: .*broken exact failed' 'which is said'
+    is "$(ls scaling.* 2>/dev/null)" '' 'and nothing is written'
+else
+    skip 'there is no oiiotool, or no HDRI' 3
+fi
 
 done_testing
