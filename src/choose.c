@@ -203,20 +203,20 @@ void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_i
 
 /* Of normals, which count for more where lobes are wide: these two, the second times alpha up to the widest of all that
  * were tried. */
-#define GRADE_NORMALS_ERROR 0.1
-#define GRADE_NORMALS_ROUGH 1.8
+#define GRADE_NORMALS_ERROR 0.05
+#define GRADE_NORMALS_ROUGH 0.9
 #define GRADE_NORMALS_POWER 1.7
 #define GRADE_ROUGHEST 0.5
 
 /* Of texels, along an axis: near the horizon lobes of any width are narrow, so that the pitch that does goes with less
  * than alpha itself. */
-#define GRADE_SPLINE_ERROR 0.68
+#define GRADE_SPLINE_ERROR 0.34
 #define GRADE_SPLINE_POWER 4.0
 #define GRADE_WIDTH_POWER 0.72
 
 /* What lies between two grades is off by GRADES_ERROR with one for each doubling of alpha, which meets it with the
  * fourth power.  Of a mixture of four, errors that have nothing to do with each other are lower. */
-#define GRADES_ERROR 0.04
+#define GRADES_ERROR 0.02
 #define GRADES_POWER 4.0
 #define MIXED 0.8
 

@@ -146,14 +146,14 @@ static void test_twins(void)
 {
     pe_bake_options options = options_of(PE_NDF_BECKMANN, 0.1);
 
-    test_twin("beckmann", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.032);
+    test_twin("beckmann", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.04);
     test_twin("beckmann, a sun", make_env(lit_room()), &options, 0.01);
     options = options_of(PE_NDF_GGX, 0.1);
-    test_twin("ggx", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.02);
+    test_twin("ggx", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.025);
     options = options_of(PE_NDF_PHONG, 0.1);
-    test_twin("phong", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.03);
+    test_twin("phong", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.04);
     options = options_of(PE_NDF_BECKMANN, 0.1 / 3.3);
-    test_twin("beckmann, 3.3:1", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.04);
+    test_twin("beckmann, 3.3:1", make_env(reference_room(WIDTH, HEIGHT)), &options, 0.045);
     options = options_of(PE_NDF_GGX, 0.1 / 3.3);
     test_twin("ggx, 3.3:1, a sun", make_env(lit_room()), &options, 0.03);
     options = options_of(PE_NDF_GGX, 0.1);
@@ -184,7 +184,7 @@ static void test_angles(void)
     t = (truth){ env, maps, views };
     pe_parallel_for(VIEWS, 0, find_truth, &t, NULL);
     off = measure(maps, views);
-    ok(off < 0.03, "8 brush angles: %.3f %% off for any", 100 * off);
+    ok(off < 0.045, "8 brush angles: %.3f %% off for any", 100 * off);
     pe_maps_free(maps);
     pe_env_free(env);
 }
