@@ -56,9 +56,9 @@ static int bake_seed(seed *s, float *rgb, int width, const pe_bake_options *opti
     return suns;
 }
 
-static float *noise_with_sun(unsigned seed)
+static float *noise_with_sun(unsigned first)
 {
-    float *rgb = reference_noise(48, 24, seed);
+    float *rgb = reference_noise(48, 24, first);
 
     rgb[3 * (9 * 48 + 20)] = 30000;
     return rgb;
