@@ -33,6 +33,8 @@ is "$(eval_of '')" "exit 0" "no lines, no answers"
 is "$(eval_of ' 0\t0  1\t0 1 1 \r\n\n  \n# a remark\n  # another\n0 1e0 0 0 +.1E+1 0.\n')" "1 0.5 0.25
 1 0.5 0.25
 exit 0" "blanks, tabs, carriage returns, remarks and all ways to write a number"
+is "$(eval_of '0\v0\f1 0 1 1 \v\f\n\v\n')" "1 0.5 0.25
+exit 0" "vertical tabs and form feeds are blanks, too"
 is "$(eval_of '0 0 1e-200 0 1e300 1e300\n')" "1 0.5 0.25
 exit 0" "vectors of any length"
 
@@ -49,6 +51,8 @@ bad() # NAME LINE PATTERN; the line comes third, after a good one and a remark
 }
 
 bad "too few" "1 2 3" "3 values; six are wanted: nx ny nz ox oy oz"
+bad "half a line and a vertical tab" '0 0 1 \v' "3 values; six are wanted"
+bad "half a line and a form feed" '0 0 1 \f' "3 values; six are wanted"
 bad "too many" "1 2 3 4 5 6 7" "7 values; six are wanted: nx ny nz ox oy oz, or nine, with the brush direction dx dy dz"
 bad "no brush" "0 0 1 0 1 1 0 0 0" "the brush direction 0 0 0 has no direction"
 bad "a brush that is a word" "0 0 1 0 1 1 1 0 along" 'dz is "along", which is not a number'

@@ -18,9 +18,10 @@ static const char *const wanted[] = {
     "seven are wanted: nx ny nz ox oy oz roughness, or ten, with the brush direction dx dy dz",
 };
 
+/* All that strtod passes over, but for the line feed: let loose on another it would go on to the next line. */
 static int is_blank(char c)
 {
-    return c == ' ' || c == '\t' || c == '\r';
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
 static const char *skip_blanks(const char *text)
