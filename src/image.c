@@ -47,23 +47,40 @@ pe_status pe_image_allocate(const char *name, long long width, long long height,
     return PE_OK;
 }
 
-/* A float in [0, 1] is off its step by 6e-8 at most, and other values soon miss a step by more. */
-static bool all_multiples(const pe_image *image, double levels)
+#define LEVELS 65535.0 /* of 16 bits, and a multiple of those of 1, 2, 4 and 8 */
+
+/* The greatest divisor that two whole numbers share, by Euclid's algorithm; that of 0 and b is b. */
+static double common_divisor(double a, double b)
 {
-    size_t count = 3 * (size_t)image->width * (size_t)image->height;
+    while (b > 0) {
+        double rest = fmod(a, b);
 
-    for (size_t k = 0; k < count; k++) {
-        double level = (double)image->rgb[k] * levels;
-
-        if (fabs(level - nearbyint(level)) > 1e-7 * levels)
-            return false;
+        a = b;
+        b = rest;
     }
-    return true;
+    return a;
 }
 
+/* A float in [0, 1] is off its level by 6e-8 at most, and other values soon miss a level by more. */
 double pe_image_step(const pe_image *image)
 {
-    return all_multiples(image, 255) ? 1.0 / 255 : all_multiples(image, 65535) ? 1.0 / 65535 : 0;
+    size_t count = 3 * (size_t)image->width * (size_t)image->height;
+    double divisor = 0;
+    bool is_flat = true; /* one value everywhere */
+
+    for (size_t k = 0; k < count; k++) {
+        double value = (double)image->rgb[k], level = nearbyint(fabs(value) * LEVELS), steps;
+
+        if (!isfinite(value))
+            continue;
+        if (fabs(fabs(value) * LEVELS - level) > 1e-7 * LEVELS)
+            return 0;
+        is_flat &= !(image->rgb[k] < image->rgb[0]) && !(image->rgb[k] > image->rgb[0]);
+        steps = divisor > 0 ? level / divisor : 0.5;
+        if (fabs(steps - nearbyint(steps)) > 0)
+            divisor = common_divisor(level, divisor);
+    }
+    return is_flat ? 0 : divisor / LEVELS;
 }
 
 void pe_image_free(pe_image *image)

@@ -10,7 +10,8 @@
 pe_status pe_image_allocate(const char *name, long long width, long long height, bool alpha, pe_image *image,
                             pe_error *error);
 
-/* The widest of the usual steps that all colour values are multiples of: of 8 bits, 1/255; of 16, 1/65535; or 0. */
+/* The widest step that all colour values are multiples of, and that is itself one of 1/65535, as those of PNGs of any
+ * depth and of whole numbers are; 0 if there is none, or but one value. */
 double pe_image_step(const pe_image *image);
 
 bool pe_hdr_detect(const unsigned char *bytes, size_t size);

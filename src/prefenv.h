@@ -215,7 +215,9 @@ typedef struct pe_heights {
     int width, height;
     double pitch;
     double own_pitch; /* that the file states, whatever was asked for; 0 if none */
-    double step;      /* by which the source rounds heights; 0 if that is not to be seen */
+    double step;      /* that all heights of the source are multiples of, so that it seems to round to it, as PNGs of
+                         any depth and whole numbers do: 1/65535 of the value 1, or a multiple of that; 0 if there is
+                         none */
     float *values;    /* width * height, rows from the top */
 } pe_heights;
 
@@ -269,7 +271,7 @@ typedef struct pe_slopes {
     size_t count, black;
     float *p, *q;   /* of each, `count` floats */
     size_t missing; /* texels that have none: not measured, at an edge, or facing down */
-    double step;    /* by which the source rounds slopes; 0 if that is not to be seen */
+    double step;    /* twice that of the source's values, as pe_heights has it; 0 if there is none */
     double noise;   /* root mean square of what the source's rounding adds to each slope */
 } pe_slopes;
 

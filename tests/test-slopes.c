@@ -465,8 +465,85 @@ static void test_files(void)
     unlink(path);
 }
 
+/* ---- rounding ---- */
+
+/* The step that heights are read with: of a PNG that holds value(k), of 255, at texel k. */
+static double step_of_png(int (*value)(int k), const char *path)
+{
+    pe_image image = { 16, 16, reference_constant(16, 16, 0), NULL };
+    pe_heights read;
+    double step;
+
+    for (int k = 0; k < 3 * 256; k++)
+        image.rgb[k] = (float)pe_srgb_decode(value(k / 3) / 255.0);
+    need(pe_image_write_png(path, &image, NULL) == PE_OK && pe_heights_read(path, 1, 1, &read, NULL) == PE_OK,
+         "heights cannot be written as PNG and read");
+    step = read.step;
+    pe_heights_free(&read);
+    pe_image_free(&image);
+    return step;
+}
+
+/* Of five floats, multiples of `scale`, and a gap. */
+static double step_of_exr(double scale, const char *path)
+{
+    pe_heights made = make_heights(16, 16, 1), read;
+    double step;
+
+    for (int k = 0; k < 256; k++)
+        made.values[k] = (float)(k == 50 ? NAN : scale * (k * 7 % 5 - 2));
+    need(pe_heights_write(&made, path, NULL) == PE_OK && pe_heights_read(path, 0, 0, &read, NULL) == PE_OK,
+         "heights cannot be written and read");
+    step = read.step;
+    pe_heights_free(&made);
+    pe_heights_free(&read);
+    return step;
+}
+
+static int of_4_bits(int k)
+{
+    return k * 7 % 16 * 17;
+}
+
+static int of_2_bits(int k)
+{
+    return k * 7 % 4 * 85;
+}
+
+static int of_1_bit(int k)
+{
+    return k * 7 % 5 / 4 * 255;
+}
+
+static int flat(int k)
+{
+    (void)k;
+    return 85;
+}
+
+static void test_rounding(void)
+{
+    char path[] = "/tmp/prefenv-test-slopes-XXXXXX";
+    double bits[3], whole, tens, fine;
+
+    close(mkstemp(path));
+    bits[0] = step_of_png(of_4_bits, path);
+    bits[1] = step_of_png(of_2_bits, path);
+    bits[2] = step_of_png(of_1_bit, path);
+    ok(fabs(bits[0] - 1.0 / 15) < 1e-12 && fabs(bits[1] - 1.0 / 3) < 1e-12 && fabs(bits[2] - 1) < 1e-12,
+       "4, 2 and 1 bits are steps of %g, %g and %g", bits[0], bits[1], bits[2]);
+    whole = step_of_exr(1, path);
+    tens = step_of_exr(10, path);
+    fine = step_of_exr(0.013, path);
+    ok(fabs(whole - 1) < 1e-12 && fabs(tens - 10) < 1e-12, "whole heights, and whole tens, are steps of %g and %g",
+       whole, tens);
+    ok(fabs(fine) + fabs(step_of_png(flat, path)) == 0, "floats have none, nor have flat surfaces");
+    unlink(path);
+}
+
 int main(void)
 {
+    test_rounding();
     test_plane();
     test_waves();
     test_normals();
