@@ -370,7 +370,7 @@ INLINE void table(const pe_lobe *l, const half *h, floats *d)
     gather(density + row + 1, &line, &d11);
     d00 += x * (d01 - d00);
     d10 += x * (d11 - d10);
-    *d = (d00 + y * (d10 - d00)) * (cos2_inverse * cos2_inverse);
+    *d = l->gain * (d00 + y * (d10 - d00)) * (cos2_inverse * cos2_inverse);
 }
 
 INLINE void square_root(floats *v)

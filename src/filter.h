@@ -71,7 +71,8 @@ void pe_filter_points(const pe_lobe *lobe, const pe_lights *lights, const float 
                       double (*sums)[4]);
 
 /* The other way round, one light w and many viewers: D(h) of each of `count` viewers, whose x, y and z stand in arrays
- * with room for a multiple of 16, as has `densities`.  Of closed forms times pi alpha_x alpha_y. */
+ * with room for a multiple of 16, as has `densities`.  Of closed forms times pi alpha_x alpha_y, of tables times the
+ * lobe's gain. */
 void pe_filter_densities(const pe_lobe *lobe, const float w[3], const float *const o[3], size_t count,
                          float *densities);
 

@@ -13,10 +13,14 @@ static void set_slopes(pe_lobe *lobe)
 {
     const pe_ndf *ndf = &lobe->surface.ndf;
     double unit = ndf->kind == PE_NDF_GGX ? 1 : M_LOG2E;
+    int exponent;
 
     if (ndf->kind == PE_NDF_TABLE) {
         lobe->scale_x = (float)(1 / ndf->table->p_step);
         lobe->scale_y = (float)(1 / ndf->table->q_step);
+        /* a narrow table's D times the brightest radiance is no float; a power of two rounds nothing */
+        frexp(ndf->table->peak, &exponent);
+        lobe->gain = (float)ldexp(1, -exponent);
         lobe->offset_x = (float)(0.5 - ndf->table->p_min / ndf->table->p_step);
         lobe->offset_y = (float)(0.5 - ndf->table->q_min / ndf->table->q_step);
     } else {

@@ -12,6 +12,7 @@ typedef struct pe_lobe {
     /* in single precision: what p^2 and q^2 are multiplied with - 1 / alpha^2, times log2(e) before an exponential - */
     float x, y;
     float scale_x, scale_y, offset_x, offset_y; /* or, for a table, the way from slopes to places in it */
+    float gain;                                 /* and what its D is multiplied with, to be at most 1 */
     /* PE_WEIGHT_MICROFACET: reflectance as a polynomial of 2 c (1 + d) / (c + d) - 1, c = o.h and d the knee; and
      * pe_directional_albedo of viewers, places from grazing to straight above for each of `azimuths` around */
     float knee, reflectance[3][PE_REFLECTANCE_TERMS];

@@ -51,6 +51,7 @@ struct pe_ndf_table {
     float *masking;              /* what ndf_masking.c keeps */
     double alpha[2];             /* sqrt 2 times the root mean square of the slopes */
     double fineness[2];          /* root of the integral of P^2 over that of its derivative squared */
+    double peak;                 /* D is nowhere above it */
     double reach[PE_NDF_LIMITS]; /* pe_ndf_reach for each whole limit */
 };
 

@@ -121,7 +121,7 @@ static void measure_widths(pe_ndf_table *t)
     t->fineness[1] = t->q_step * sqrt(square / steps[1]);
 }
 
-/* Each sample reaches to its tent's far corner. */
+/* Each sample reaches to its tent's far corner, and its D is at most what it would be there. */
 static void measure_reach(pe_ndf_table *t)
 {
     double greatest = 0;
@@ -140,6 +140,7 @@ static void measure_reach(pe_ndf_table *t)
                 else if (d > 0)
                     t->reach[PE_NDF_LIMITS - 1] = fmax(t->reach[PE_NDF_LIMITS - 1], m);
             }
+    t->peak = greatest;
     for (int limit = 1; limit < PE_NDF_LIMITS; limit++)
         t->reach[limit] = fmax(t->reach[limit], t->reach[limit - 1]);
 }

@@ -187,13 +187,13 @@ static void test_refusals(void)
     refuse(2, 2, -1, 1, nothing, "0 everywhere");
 }
 
-static pe_maps *bake(const pe_env *env, const pe_ndf *ndf, pe_accuracy accuracy, int threads)
+static pe_maps *bake(const pe_env *env, const pe_ndf *ndf, pe_accuracy accuracy, int width, int height, int threads)
 {
     pe_bake_options options = { .method = PE_METHOD_REPRESENTATIVE,
                                 .surface.ndf = *ndf,
                                 .normals = 12,
-                                .width = 60,
-                                .height = 30,
+                                .width = width,
+                                .height = height,
                                 .accuracy = accuracy,
                                 .threads = threads };
     pe_maps *maps;
@@ -240,8 +240,8 @@ static void test_beckmann(double alpha_x, double alpha_y, int width)
     pe_ndf_table_alpha(table, alpha);
     ok(fabs(alpha[0] / alpha_x - 1) < 1e-3 && fabs(alpha[1] / alpha_y - 1) < 1e-3, "beckmann %g, %g: widths %g, %g",
        alpha_x, alpha_y, alpha[0], alpha[1]);
-    a = bake(env, &tabulated, PE_ACCURACY_EXACT, 0);
-    b = bake(env, &closed, PE_ACCURACY_EXACT, 0);
+    a = bake(env, &tabulated, PE_ACCURACY_EXACT, 60, 30, 0);
+    b = bake(env, &closed, PE_ACCURACY_EXACT, 60, 30, 0);
     error = difference(a, b, 0.15);
     ok(error < 1e-4, "beckmann %g, %g tabulated bakes as the closed form does: %.1e", alpha_x, alpha_y, error);
     ok(pe_maps_get_info(a)->surface.ndf.kind == PE_NDF_TABLE && !pe_maps_get_info(a)->surface.ndf.table &&
@@ -264,7 +264,7 @@ static void test_bake(const pe_ndf *ndf)
     double error2 = 0, norm2 = 0, rms;
 
     need(pe_env_create(64, 32, rgb, &env, NULL) == PE_OK, "no memory");
-    maps = bake(env, ndf, PE_ACCURACY_EXACT, 0);
+    maps = bake(env, ndf, PE_ACCURACY_EXACT, 60, 30, 0);
     for (int texel = 0; texel < 60 * 30; texel++) {
         double n[3], r[3], o[3], theta, exact[3];
 
@@ -280,11 +280,38 @@ static void test_bake(const pe_ndf *ndf)
     }
     rms = sqrt(error2 / norm2);
     ok(rms < 3e-6, "ridges: bake and exact differ by %.1e", rms);
-    alone = bake(env, ndf, PE_ACCURACY_EXACT, 1);
+    alone = bake(env, ndf, PE_ACCURACY_EXACT, 60, 30, 1);
     ok(difference(maps, alone, 0) == 0, "ridges: one thread bakes the same bits");
     pe_maps_free(maps);
     pe_maps_free(alone);
     pe_env_free(env);
+    free(rgb);
+}
+
+/* However narrow the lobe and bright the light, sums over it are floats. */
+static void test_bright(double reach, pe_accuracy accuracy)
+{
+    const double range[2] = { -reach, reach };
+    float density[16], *rgb = reference_constant(64, 32, 1);
+    pe_ndf ndf = { .kind = PE_NDF_TABLE };
+    pe_ndf_table *table;
+    pe_env *env = NULL;
+    pe_maps *maps;
+    int wrong = 0;
+
+    for (int k = 0; k < 16; k++)
+        density[k] = 1;
+    for (int k = 0; k < 9; k++)
+        rgb[3 * (32 * 9 + k)] = PE_RADIANCE_MAX;
+    ndf.table = table = make(4, 4, range, range, density);
+    need(pe_env_create(64, 32, rgb, &env, NULL) == PE_OK, "no memory");
+    maps = bake(env, &ndf, accuracy, 64, 32, 0);
+    for (int k = 0; k < pe_maps_get_info(maps)->images * 3 * 64 * 32; k++)
+        wrong += !(pe_maps_image(maps, 0)[k] <= 1.001f * PE_RADIANCE_MAX);
+    ok(wrong == 0, "slopes within %g, light of %g: %d values are wrong", reach, (double)PE_RADIANCE_MAX, wrong);
+    pe_maps_free(maps);
+    pe_env_free(env);
+    pe_ndf_table_free(table);
     free(rgb);
 }
 
@@ -302,6 +329,9 @@ int main(void)
     test_beckmann(0.1, 0.1, 256);
     test_beckmann(0.1, 0.03, 256);
     test_beckmann(0.01, 0.01, 1024);
+    test_bright(1e-6, PE_ACCURACY_EXACT);
+    test_bright(1e-6, PE_ACCURACY_FAST);
+    test_bright(1000, PE_ACCURACY_EXACT);
     pe_ndf_table_free(table);
     return done_testing();
 }
