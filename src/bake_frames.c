@@ -182,29 +182,30 @@ static pe_status check_frames(const pe_baker *b, const pe_env *const *envs, int 
     return status;
 }
 
-static pe_status drop(pe_maps **maps, int count, pe_status why)
+/* The maps become the caller's, or, for a reason, nobody's. */
+static pe_status hand_out(pe_maps *const *made, int count, pe_status why, pe_maps **maps)
 {
-    for (int k = 0; k < count; k++) {
-        pe_maps_free(maps[k]);
-        maps[k] = NULL;
-    }
+    for (int k = 0; k < count; k++)
+        if (why == PE_OK)
+            maps[k] = made[k];
+        else
+            pe_maps_free(made[k]);
     return why;
 }
 
 pe_status pe_baker_bake_pictures(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
                                  pe_maps **maps, pe_error *error)
 {
-    frames f = { .baker = b, .count = count, .maps = maps, .stage = { &b->options, 0, 0 } };
+    pe_maps *made[PE_FRAMES_MAX] = { NULL };
+    frames f = { .baker = b, .count = count, .maps = made, .stage = { &b->options, 0, 0 } };
     pe_status status = check_frames(b, envs, count, error);
 
     if (status != PE_OK)
         return status;
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < count; k++)
         f.fine[k] = envs[k];
-        maps[k] = NULL;
-    }
     status = b->kernel ? bake_by_kernel(&f, errors, error) : bake_one_by_one(&f, errors, error);
-    return status == PE_OK ? status : drop(maps, count, status);
+    return hand_out(made, count, status, maps);
 }
 
 static pe_status finish(const pe_baker *b, pe_maps *maps, pe_error *error)
@@ -217,11 +218,12 @@ static pe_status finish(const pe_baker *b, pe_maps *maps, pe_error *error)
 pe_status pe_baker_bake_frames(const pe_baker *b, const pe_env *const *envs, int count, const pe_bake_errors *errors,
                                pe_maps **maps, pe_error *error)
 {
-    pe_status status = pe_baker_bake_pictures(b, envs, count, errors, maps, error);
+    pe_maps *made[PE_FRAMES_MAX] = { NULL };
+    pe_status status = pe_baker_bake_pictures(b, envs, count, errors, made, error);
 
     if (status != PE_OK)
         return status;
     for (int k = 0; k < count && status == PE_OK; k++)
-        status = finish(b, maps[k], error);
-    return status == PE_OK ? status : drop(maps, count, status);
+        status = finish(b, made[k], error);
+    return hand_out(made, count, status, maps);
 }

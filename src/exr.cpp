@@ -290,7 +290,6 @@ pe_status pe_exr_read_image(const unsigned char *bytes, size_t size, const char 
 
     if (status != PE_OK)
         return status;
-    *image = pe_image();
     return guarded(name, error, [&] { return read_image(bytes, size, name, image, error); });
 }
 

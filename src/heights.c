@@ -87,20 +87,23 @@ static pe_status take_heights(const pe_image *image, const char *name, double un
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     pe_status status = check_gray(image, name, error);
+    float *values;
 
     if (status != PE_OK)
         return status;
     if (image->width < PE_HEIGHTS_SIDE_MIN || image->height < PE_HEIGHTS_SIDE_MIN)
         return pe_fail(error, PE_ERROR_LIMIT, "%s: %d x %d heights are too few; at least %d x %d are wanted", name,
                        image->width, image->height, PE_HEIGHTS_SIDE_MIN, PE_HEIGHTS_SIDE_MIN);
-    *heights = (pe_heights){ .width = image->width, .height = image->height, .pitch = pitch };
-    heights->values = malloc(count * sizeof(float));
-    if (!heights->values)
+    values = malloc(count * sizeof *values);
+    if (!values)
         return pe_fail_memory(error, "heights");
-    heights->step = unit * pe_image_step(image);
+    *heights = (pe_heights){ .width = image->width,
+                             .height = image->height,
+                             .pitch = pitch,
+                             .step = unit * pe_image_step(image),
+                             .values = values };
     for (size_t k = 0; k < count; k++)
-        heights->values[k] =
-            image->alpha && !(image->alpha[k] > 0.5f) ? NAN : (float)(unit * (double)image->rgb[3 * k]);
+        values[k] = image->alpha && !(image->alpha[k] > 0.5f) ? NAN : (float)(unit * (double)image->rgb[3 * k]);
     return PE_OK;
 }
 

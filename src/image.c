@@ -95,8 +95,8 @@ void pe_image_free(pe_image *image)
 typedef pe_status read_format(const unsigned char *bytes, size_t size, const char *name, pe_image *image,
                               pe_error *error);
 
-static pe_status read_bytes(const void *bytes, size_t size, const char *name, read_format *png, pe_image *image,
-                            pe_error *error)
+static pe_status read_kind(const void *bytes, size_t size, const char *name, read_format *png, pe_image *image,
+                           pe_error *error)
 {
     if (size == 0)
         return pe_fail(error, PE_ERROR_FORMAT, "%s: is empty", name);
@@ -107,6 +107,17 @@ static pe_status read_bytes(const void *bytes, size_t size, const char *name, re
     if (pe_png_detect(bytes, size))
         return png(bytes, size, name, image, error);
     return pe_fail(error, PE_ERROR_FORMAT, "%s: is neither OpenEXR, Radiance HDR nor PNG", name);
+}
+
+static pe_status read_bytes(const void *bytes, size_t size, const char *name, read_format *png, pe_image *image,
+                            pe_error *error)
+{
+    pe_image read = { 0 };
+    pe_status status = read_kind(bytes, size, name, png, &read, error);
+
+    if (status == PE_OK)
+        *image = read;
+    return status;
 }
 
 static pe_status read_path(const char *path, read_format *png, pe_image *image, pe_error *error)

@@ -1,4 +1,4 @@
-/* image.h - the readers behind pe_image_read: one a format, each from bytes in memory. */
+/* image.h - the readers behind pe_image_read: one a format, each from bytes in memory, into a picture of zeros. */
 #ifndef PE_IMAGE_H
 #define PE_IMAGE_H
 

@@ -150,7 +150,6 @@ static pe_status read_bytes(const unsigned char *bytes, size_t size, const char 
     reading r = { .s = { .at = bytes, .end = bytes + size, .name = name, .error = error }, .meaning = meaning };
     pe_status status;
 
-    *image = (pe_image){ 0 };
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.s, on_error, on_warning);
     r.info = r.png ? png_create_info_struct(r.png) : NULL;
     status = r.info ? read_png(&r, image) : pe_fail_memory(error, "libpng");

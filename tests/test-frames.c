@@ -262,6 +262,41 @@ static void test_exact(void)
     pe_env_free(env);
 }
 
+/* ---- what fails ---- */
+
+static int stop_if(double fraction, void *data)
+{
+    (void)fraction;
+    return *(const int *)data;
+}
+
+static void test_failure(pe_accuracy accuracy)
+{
+    pe_env *env = make_suns(30);
+    const pe_env *envs[2] = { env, env };
+    int stop = 0;
+    pe_bake_options options = { .surface.ndf = { PE_NDF_BECKMANN, 0.3, 0.2, NULL },
+                                .normals = 12,
+                                .width = 40,
+                                .height = 40,
+                                .accuracy = accuracy,
+                                .progress = stop_if,
+                                .progress_data = &stop };
+    pe_baker *baker = make_baker(env, &options);
+    pe_maps *earlier, *maps[2];
+    pe_error error;
+
+    bake_frames(baker, envs, 1, &earlier);
+    maps[0] = maps[1] = earlier;
+    stop = 1;
+    ok(pe_baker_bake_frames(baker, envs, 2, NULL, maps, &error) == PE_ERROR_CANCELLED && maps[0] == earlier &&
+           maps[1] == earlier,
+       "accuracy %d: where the bake fails, what was there stays", (int)accuracy);
+    pe_maps_free(earlier);
+    pe_baker_free(baker);
+    pe_env_free(env);
+}
+
 int main(void)
 {
     static const char *const hdris[] = { "city", "studio", "forest", "courtyard", "sunrise" };
@@ -274,5 +309,7 @@ int main(void)
     test_furnace(PE_METHOD_HEMISPHERES);
     test_furnace(PE_METHOD_REPRESENTATIVE);
     test_exact();
+    test_failure(PE_ACCURACY_EXACT);
+    test_failure(PE_ACCURACY_FAST);
     return done_testing();
 }
