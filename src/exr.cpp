@@ -163,6 +163,13 @@ void read_pixels(Imf::InputPart &part, const std::string channels[3], const Imat
         rgb[3 * texel + 1] = rgb[3 * texel + 2] = rgb[3 * texel];
 }
 
+/* An opacity, as pe_image has it; what is not a number is transparent. */
+void clip(float *alpha, size_t texels)
+{
+    for (size_t k = 0; k < texels; k++)
+        alpha[k] = alpha[k] > 0 ? std::min(alpha[k], 1.0f) : 0;
+}
+
 /* Copies what data and display windows share. */
 void place(const float *from, const Imath::Box2i &data, float *to, const Imath::Box2i &display, size_t values)
 {
@@ -202,8 +209,10 @@ pe_status read_image(const unsigned char *bytes, size_t size, const char *name, 
     if (status != PE_OK)
         return status;
     place(whole.rgb, data, image->rgb, display, 3);
-    if (alpha)
+    if (alpha) {
+        clip(whole.alpha, static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height));
         place(whole.alpha, data, image->alpha, display, 1);
+    }
     return PE_OK;
 }
 

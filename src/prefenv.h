@@ -60,7 +60,7 @@ typedef int pe_progress(double fraction, void *data);
 typedef struct pe_image {
     int width, height;
     float *rgb;   /* 3 * width * height floats */
-    float *alpha; /* width * height floats in [0, 1], or NULL if the file has no alpha channel */
+    float *alpha; /* width * height floats, clipped to [0, 1], or NULL if the file has no alpha channel */
 } pe_image;
 
 /* Reads OpenEXR (every pixel type, storage and compression; RGB, RGBA or Y), Radiance HDR or PNG (8 and 16 bit,

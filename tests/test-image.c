@@ -1,5 +1,5 @@
-/* test-image.c - claims: of a picture that cannot be read nothing is left behind, wherever it is cut
- * off. */
+/* test-image.c - claims: of a picture that cannot be read nothing is left behind, wherever it is cut off; an
+ * opacity is clipped. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -128,10 +128,25 @@ static void leaves_nothing(const char *name, file f)
        changed);
 }
 
+static void clips_alpha(void)
+{
+    file f = make_exr();
+    pe_image image;
+    pe_error error;
+
+    need(pe_image_read_memory(f.bytes, f.size, "alpha.exr", &image, &error) == PE_OK && image.alpha, "%s",
+         error.message);
+    ok(image.alpha[0] == 1 && image.alpha[1] == 0 && image.alpha[2] == 0.25f && image.alpha[3] == 0,
+       "opacities of 5, -3, 0.25 and NaN are %g, %g, %g and %g", (double)image.alpha[0], (double)image.alpha[1],
+       (double)image.alpha[2], (double)image.alpha[3]);
+    pe_image_free(&image);
+}
+
 int main(void)
 {
     leaves_nothing("EXR", make_exr());
     leaves_nothing("HDR", make_hdr());
     leaves_nothing("PNG", make_png());
+    clips_alpha();
     return done_testing();
 }
