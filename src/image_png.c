@@ -101,6 +101,21 @@ typedef struct reading {
     float *table;
 } reading;
 
+#define DEFLATE_MOST 1032 /* bytes that one byte of deflated data can stand for: 258 for two bits */
+
+/* So that a few bytes do not claim gigabytes: they are refused before anything is allocated. */
+static pe_status check_size(const reading *r, size_t size)
+{
+    size_t row = 1 + png_get_rowbytes(r->png, r->info), height = png_get_image_height(r->png, r->info);
+
+    if (row <= size * DEFLATE_MOST / height)
+        return PE_OK;
+    return pe_fail(r->s.error, PE_ERROR_FORMAT,
+                   "%s: %zu bytes cannot hold the %u x %zu texels of its header; "
+                   "the file is damaged or cut off",
+                   r->s.name, size, png_get_image_width(r->png, r->info), height);
+}
+
 static pe_status read_rows(reading *r, pe_image *image)
 {
     size_t stride, width = (size_t)image->width, height = (size_t)image->height;
@@ -122,6 +137,7 @@ static pe_status read_rows(reading *r, pe_image *image)
 /* Every colour type and depth becomes 16-bit RGBA. */
 static pe_status read_png(reading *r, pe_image *image)
 {
+    size_t size = (size_t)(r->s.end - r->s.at);
     bool alpha;
     pe_status status;
 
@@ -132,6 +148,9 @@ static pe_status read_png(reading *r, pe_image *image)
     png_read_info(r->png, r->info);
     alpha =
         (png_get_color_type(r->png, r->info) & PNG_COLOR_MASK_ALPHA) || png_get_valid(r->png, r->info, PNG_INFO_tRNS);
+    status = check_size(r, size);
+    if (status != PE_OK)
+        return status;
     status = pe_image_allocate(r->s.name, png_get_image_width(r->png, r->info), png_get_image_height(r->png, r->info),
                                alpha, image, r->s.error);
     if (status != PE_OK)

@@ -1,11 +1,12 @@
-/* test-image.c - claims: of a picture that cannot be read nothing is left behind, wherever it is cut off; an
- * opacity is clipped. */
+/* test-image.c - claims: of a picture that cannot be read nothing is left behind, wherever it is cut off; a small PNG
+ * claims no large memory; an opacity is clipped. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
 
 #include <math.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 enum { FILE_MAX = 4096 };
@@ -142,11 +143,39 @@ static void clips_alpha(void)
     pe_image_free(&image);
 }
 
+static long peak_megabytes(void)
+{
+    struct rusage usage;
+
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+}
+
+/* A texel wide and 2^27 high: of 68 bytes. */
+static void claims_no_memory(void)
+{
+    static const unsigned char tall[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+        0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x08, 0x02, 0x00, 0x00, 0x00, 0xe0, 0xf3, 0x22, 0x63, 0x00,
+        0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x80, 0x00, 0x00, 0x00, 0x08, 0x00,
+        0x01, 0xb7, 0x58, 0x73, 0x95, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82,
+    };
+    long before = peak_megabytes(), more;
+    pe_image image;
+    pe_error error = { PE_OK, "" };
+    pe_status status = pe_image_read_memory(tall, sizeof tall, "tall.png", &image, &error);
+
+    more = peak_megabytes() - before;
+    ok(status == PE_ERROR_FORMAT && strstr(error.message, "1 x 134217728"), "refused: %s", error.message);
+    ok(more < 200, "... and it took %ld MB", more);
+}
+
 int main(void)
 {
     leaves_nothing("EXR", make_exr());
     leaves_nothing("HDR", make_hdr());
     leaves_nothing("PNG", make_png());
     clips_alpha();
+    claims_no_memory();
     return done_testing();
 }
