@@ -327,6 +327,17 @@ static pe_status check_error(double wanted, pe_error *error)
     return pe_fail(error, PE_ERROR_ARGUMENT, "error %g is out of range; it lies between 0.0005 and 0.1", wanted);
 }
 
+static pe_status check_enums(const pe_bake_options *options, pe_error *error)
+{
+    if ((int)options->quality < PE_QUALITY_NORMAL || options->quality > PE_QUALITY_HIGH)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "quality %d is none of pe_quality", (int)options->quality);
+    if ((int)options->accuracy < PE_ACCURACY_AUTO || options->accuracy > PE_ACCURACY_FAST)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "accuracy %d is none of pe_accuracy", (int)options->accuracy);
+    if ((int)options->lost < PE_LOST_SPREAD || options->lost > PE_LOST_DARK)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "lost %d is none of pe_lost_weight", (int)options->lost);
+    return PE_OK;
+}
+
 static pe_maps_info hemispheres_for(const pe_maps_info *wanted)
 {
     pe_maps_info info = *wanted;
@@ -371,6 +382,8 @@ static pe_status prepare(pe_baker *b, double aim, int width, int height, pe_erro
 {
     pe_status status = check_error(b->options.error, error);
 
+    if (status == PE_OK)
+        status = check_enums(&b->options, error);
     if (status == PE_OK && pe_method_has_lambda(b->options.method))
         return prepare_multiscale(b, aim, width, height, error);
     if (status == PE_OK && b->options.method == PE_METHOD_GRADES)

@@ -294,6 +294,17 @@ static void test_options(void)
     options.direction[0] = INFINITY;
     refuse(options, "direction");
     options = small;
+    options.accuracy = (pe_accuracy)7;
+    refuse(options, "accuracy 7");
+    options = small;
+    options.quality = (pe_quality)-1;
+    refuse(options, "quality -1");
+    options = small;
+    options.method = PE_METHOD_VOXELS;
+    options.smoothness.size = 16;
+    options.lost = (pe_lost_weight)9;
+    refuse(options, "lost 9");
+    options = small;
     for (int c = 0; c < 3; c++)
         options.direction[c] *= 1e-200;
     ok(pe_bake(env, &options, &maps, &error) == PE_OK, "a direction may have any length: 1e-200");
