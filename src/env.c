@@ -235,8 +235,11 @@ pe_status pe_env_read_memory(const void *bytes, size_t size, const char *name, p
 pe_status pe_env_create(int width, int height, const float *rgb, pe_env **env, pe_error *error)
 {
     pe_image image = { 0 };
-    pe_status status = pe_image_allocate("environment", width, height, false, &image, error);
+    pe_status status;
 
+    if (width < 1 || height < 1)
+        return pe_fail(error, PE_ERROR_ARGUMENT, "an environment of %d x %d texels has none", width, height);
+    status = pe_image_allocate("environment", width, height, false, &image, error);
     if (status == PE_OK)
         memcpy(image.rgb, rgb, 3 * sizeof *rgb * (size_t)width * (size_t)height);
     return take_image(status, &image, "", env, error);

@@ -34,10 +34,11 @@ static pe_status check_range(const char *which, const double range[2], pe_error 
 
 static pe_status check_samples(long long width, long long height, pe_error *error)
 {
-    if (width >= SIDE_MIN && height >= SIDE_MIN && width <= SIDE_MAX && height <= SIDE_MAX &&
-        (size_t)(width * height) <= SAMPLES_MAX)
+    int is_small = width < SIDE_MIN || height < SIDE_MIN;
+
+    if (!is_small && width <= SIDE_MAX && height <= SIDE_MAX && (size_t)(width * height) <= SAMPLES_MAX)
         return PE_OK;
-    return pe_fail(error, PE_ERROR_LIMIT,
+    return pe_fail(error, is_small ? PE_ERROR_ARGUMENT : PE_ERROR_LIMIT,
                    "a table of %lld x %lld slopes is out of range; each side lies between %d and %d, and there are at "
                    "most %zu in all",
                    width, height, SIDE_MIN, SIDE_MAX, SAMPLES_MAX);
@@ -402,9 +403,8 @@ static pe_status read_table(const pe_exr_file *file, const char *name, pe_ndf_ta
     status = check_samples(width, height, &inner);
     if (status == PE_OK)
         status = read_density(file, (int)width, (int)height, &density, &inner);
-    if (status != PE_OK)
-        return pe_fail(error, status, "%s: %s", name, inner.message);
-    status = create((int)width, (int)height, p_range, q_range, density, pe_base_name(name), table, &inner);
+    if (status == PE_OK)
+        status = create((int)width, (int)height, p_range, q_range, density, pe_base_name(name), table, &inner);
     free(density);
     if (status != PE_OK)
         return pe_fail(error, status == PE_ERROR_ARGUMENT ? PE_ERROR_FORMAT : status, "%s: %s", name, inner.message);

@@ -1,5 +1,6 @@
 /* test-ndf-table.c - claims: a measured distribution is normalised, is drawn from as it is, survives its file, and is
  * filtered with as pe_exact does; and a Beckmann distribution tabulated finely bakes as the closed form does. */
+#include "exr.h"
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"
@@ -160,13 +161,14 @@ static void test_file(const pe_ndf_table *table)
     pe_ndf_table_free(again);
 }
 
-static void refuse(int width, int height, double low, double high, const float *density, const char *word)
+static void refuse(int width, int height, double low, double high, const float *density, pe_status why,
+                   const char *word)
 {
     const double range[2] = { low, high }, sound[2] = { -1, 1 };
     pe_ndf_table *table;
     pe_error error = { PE_OK, "" };
 
-    ok(pe_ndf_table_create(width, height, range, sound, density, &table, &error) != PE_OK &&
+    ok(pe_ndf_table_create(width, height, range, sound, density, &table, &error) == why && error.status == why &&
            strstr(error.message, word),
        "refused: %s", error.message);
 }
@@ -176,15 +178,38 @@ static void test_refusals(void)
     static const float good[4] = { 1, 1, 1, 1 }, negative[4] = { 1, -1, 1, 1 }, nan[4] = { 1, NAN, 1, 1 };
     static const float infinite[4] = { 1, INFINITY, 1, 1 }, nothing[4] = { 0 };
 
-    refuse(1, 2, -1, 1, good, "1 x 2");
-    refuse(8192, 8192, -1, 1, good, "8192 x 8192");
-    refuse(2, 2, 1, -1, good, "from 1 to -1");
-    refuse(2, 2, 0, NAN, good, "from 0 to nan");
-    refuse(2, 2, -2000, 1, good, "-2000");
-    refuse(2, 2, -1, 1, negative, "is -1");
-    refuse(2, 2, -1, 1, nan, "is nan");
-    refuse(2, 2, -1, 1, infinite, "is inf");
-    refuse(2, 2, -1, 1, nothing, "0 everywhere");
+    refuse(1, 2, -1, 1, good, PE_ERROR_ARGUMENT, "1 x 2");
+    refuse(8192, 8192, -1, 1, good, PE_ERROR_LIMIT, "8192 x 8192");
+    refuse(2, 2, 1, -1, good, PE_ERROR_ARGUMENT, "from 1 to -1");
+    refuse(2, 2, 0, NAN, good, PE_ERROR_ARGUMENT, "from 0 to nan");
+    refuse(2, 2, -2000, 1, good, PE_ERROR_ARGUMENT, "-2000");
+    refuse(2, 2, -1, 1, negative, PE_ERROR_ARGUMENT, "is -1");
+    refuse(2, 2, -1, 1, nan, PE_ERROR_ARGUMENT, "is nan");
+    refuse(2, 2, -1, 1, infinite, PE_ERROR_ARGUMENT, "is inf");
+    refuse(2, 2, -1, 1, nothing, PE_ERROR_ARGUMENT, "0 everywhere");
+}
+
+/* What an argument may not be, a file's format may not. */
+static void test_small_file(void)
+{
+    static const float density[2] = { 1, 1 };
+    const pe_attribute attributes[] = {
+        { .name = "prefenv:ndf-version", .type = PE_ATTRIBUTE_INT, .integer = 1 },
+        { .name = "prefenv:ndf-p-min", .type = PE_ATTRIBUTE_DOUBLE, .number = -1 },
+        { .name = "prefenv:ndf-p-max", .type = PE_ATTRIBUTE_DOUBLE, .number = 1 },
+        { .name = "prefenv:ndf-q-min", .type = PE_ATTRIBUTE_DOUBLE, .number = -1 },
+        { .name = "prefenv:ndf-q-max", .type = PE_ATTRIBUTE_DOUBLE, .number = 1 },
+    };
+    unsigned char *bytes;
+    pe_ndf_table *table;
+    pe_error error;
+    size_t size;
+
+    need(pe_exr_encode_gray(density, 1, 2, attributes, 5, &bytes, &size, &error) == PE_OK, "%s", error.message);
+    ok(pe_ndf_table_read_memory(bytes, size, "narrow.exr", &table, &error) == PE_ERROR_FORMAT &&
+           strstr(error.message, "narrow.exr: a table of 1 x 2"),
+       "refused: %s", error.message);
+    free(bytes);
 }
 
 static pe_maps *bake(const pe_env *env, const pe_ndf *ndf, pe_accuracy accuracy, int width, int height, int threads)
@@ -325,6 +350,7 @@ int main(void)
     test_sampler(&ndf);
     test_file(table);
     test_refusals();
+    test_small_file();
     test_bake(&ndf);
     test_beckmann(0.1, 0.1, 256);
     test_beckmann(0.1, 0.03, 256);
