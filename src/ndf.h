@@ -45,7 +45,7 @@ struct pe_ndf_table {
     int width, height, row;
     double p_min, q_min, p_step, q_step;
     float *density;
-    double *row_sums;            /* of height + 1: what the rows above each hold, of 1 in all */
+    float *row_sums;             /* of height + 1: what the rows above each hold, of 1 in all */
     float *sums;                 /* likewise within each row, of width + 1 each */
     double moments[3];           /* mean of p^2, p q and q^2 */
     float *masking;              /* what ndf_masking.c keeps */

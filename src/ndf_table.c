@@ -75,7 +75,7 @@ static void fill(pe_ndf_table *t, const float *density, double sum)
             to[x] = (float)((double)from[x] * scale);
             row += (double)from[x];
         }
-        t->row_sums[y] = before / sum;
+        t->row_sums[y] = (float)(before / sum);
         before += row;
         for (int x = 0; x < t->width; x++) {
             within += (double)from[x];
@@ -261,23 +261,7 @@ static double draw_tent(double u)
 }
 
 /* The last index k below `count` with sums[k] <= u; what is left of u within it goes to *rest. */
-static int draw_row(const double *sums, int count, double u, double *rest)
-{
-    int low = 0, high = count;
-
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-
-        if (sums[middle] <= u)
-            low = middle;
-        else
-            high = middle;
-    }
-    *rest = fmin(fmax((u - sums[low]) / (sums[low + 1] - sums[low]), 0), 1);
-    return low;
-}
-
-static int draw_column(const float *sums, int count, double u, double *rest)
+static int draw_index(const float *sums, int count, double u, double *rest)
 {
     int low = 0, high = count;
 
@@ -296,10 +280,10 @@ static int draw_column(const float *sums, int count, double u, double *rest)
 void pe_ndf_table_sample(const pe_ndf_table *t, double u1, double u2, double *p, double *q)
 {
     double rest;
-    int y = draw_row(t->row_sums, t->height, u1, &rest), x;
+    int y = draw_index(t->row_sums, t->height, u1, &rest), x;
 
     *q = q_of(t, y) + t->q_step * draw_tent(rest);
-    x = draw_column(t->sums + (size_t)y * (size_t)(t->width + 1), t->width, u2, &rest);
+    x = draw_index(t->sums + (size_t)y * (size_t)(t->width + 1), t->width, u2, &rest);
     *p = p_of(t, x) + t->p_step * draw_tent(rest);
 }
 
