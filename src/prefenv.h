@@ -413,7 +413,7 @@ pe_status pe_highlights_make(const pe_surface *surface, pe_highlights **highligh
 void pe_highlights_free(pe_highlights *highlights); /* NULL is allowed */
 
 /* `light` is the direction to the light source, of any length but zero; the rest is as for pe_exact.  W is that of a
- * table, within 0.025 where o.n > 0.2 and 0.1 below, unless the lobe is drawn out by more than 10; of distributions
+ * table, within 0.03 where o.n > 0.2 and 0.15 below, unless the lobe is drawn out by more than 10; of distributions
  * that lean to one side it is coarser where viewers see few normals, and nothing is reflected where they see none.
  * pe_highlight_once: for a surface that is met at one point, such as one of varying roughness; without a table, in some
  * tens of microseconds, of measured distributions a hundred or two. */

@@ -187,6 +187,44 @@ static void microfacets_follow(const pe_ndf_table *table)
     }
 }
 
+/* The bounds that prefenv.h states for W's table, near the worst that there is: of GGX as wide as can be and drawn out
+ * tenfold, 0.13, and of narrow lobes of any kind, 0.09. */
+static void table_is_near(pe_ndf ndf)
+{
+    enum { HIGH = 40, LOW = 120, AROUND = 5 };
+    static const double up[3] = { 0, 0, 1 }, along[3] = { 1, 0, 0 };
+    const pe_surface surface = { .ndf = ndf };
+    pe_highlights *highlights = NULL;
+    double worst[2] = { 0, 0 }; /* low, high */
+
+    need(pe_highlights_make(&surface, &highlights, NULL) == PE_OK, "no highlights");
+    for (int k = 0; k < (HIGH + LOW) * AROUND; k++) {
+        int row = k / AROUND, is_high = row >= LOW;
+        double z = is_high ? 0.2 + 0.8 * (row - LOW + 0.5) / HIGH : 0.2 * (row + 0.5) / LOW, sine = sqrt(1 - z * z);
+        double azimuth = 0.023 + 1.55 * (k % AROUND) / (AROUND - 1), table[3], once[3], off;
+        const double o[3] = { sine * cos(azimuth), sine * sin(azimuth), z }, light[3] = { -o[0], -o[1], z };
+
+        pe_highlight(highlights, along, up, o, light, table);
+        pe_highlight_once(&surface, along, up, o, light, once);
+        off = fabs(table[0] / once[0] - 1);
+        if (!(off <= worst[is_high]))
+            worst[is_high] = off;
+    }
+    ok(worst[1] < 0.03 && worst[0] < 0.15, "kind %d, %g, %g: the table of W is within %.3f, %.3f at low viewers",
+       (int)ndf.kind, ndf.alpha_x, ndf.alpha_y, worst[1], worst[0]);
+    pe_highlights_free(highlights);
+}
+
+static void tables_are_near(void)
+{
+    table_is_near((pe_ndf){ PE_NDF_GGX, 0.2, 2, NULL });
+    table_is_near((pe_ndf){ PE_NDF_GGX, 2, 0.2, NULL });
+    table_is_near((pe_ndf){ PE_NDF_GGX, 1.3, 2, NULL });
+    table_is_near((pe_ndf){ PE_NDF_BECKMANN, 0.003, 0.001, NULL });
+    table_is_near((pe_ndf){ PE_NDF_BECKMANN, 1.6, 2, NULL });
+    table_is_near((pe_ndf){ PE_NDF_PHONG, 0.003, 0.003, NULL });
+}
+
 /* ---- Phong's lobe ---- */
 
 static void lobes_follow(void)
@@ -273,6 +311,7 @@ int main(void)
     for (int k = 0; k < LAMPS; k++)
         lamps[k] = make_lamp(places[k][0], places[k][1]);
     microfacets_follow(table);
+    tables_are_near();
     lobes_follow();
     arguments_are_any();
     leaning_is_finite();
