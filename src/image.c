@@ -65,8 +65,7 @@ static double common_divisor(double a, double b)
 double pe_image_step(const pe_image *image)
 {
     size_t count = 3 * (size_t)image->width * (size_t)image->height;
-    double divisor = 0;
-    bool is_flat = true; /* one value everywhere */
+    double divisor = 0, least = INFINITY, most = -INFINITY;
 
     for (size_t k = 0; k < count; k++) {
         double value = (double)image->rgb[k], level = nearbyint(fabs(value) * LEVELS), steps;
@@ -75,12 +74,13 @@ double pe_image_step(const pe_image *image)
             continue;
         if (fabs(fabs(value) * LEVELS - level) > 1e-7 * LEVELS)
             return 0;
-        is_flat &= !(image->rgb[k] < image->rgb[0]) && !(image->rgb[k] > image->rgb[0]);
+        least = fmin(least, value);
+        most = fmax(most, value);
         steps = divisor > 0 ? level / divisor : 0.5;
         if (fabs(steps - nearbyint(steps)) > 0)
             divisor = common_divisor(level, divisor);
     }
-    return is_flat ? 0 : divisor / LEVELS;
+    return most > least ? divisor / LEVELS : 0;
 }
 
 void pe_image_free(pe_image *image)

@@ -46,10 +46,11 @@ pe_status pe_grades_check(const pe_maps_info *info, pe_error *error)
     if (info->grades < PE_GRADES_MIN || info->grades > PE_GRADES_MAX)
         return pe_fail(error, PE_ERROR_ARGUMENT, "grades %d are out of range; there are %d to %d", info->grades,
                        PE_GRADES_MIN, PE_GRADES_MAX);
-    if (!(range_of(info) >= RANGE_MIN && info->alpha_max <= PE_ALPHA_MAX))
-        return pe_fail(error, PE_ERROR_ARGUMENT,
-                       "alpha %g to %g is no range; the roughest is at least %g times the smoothest and at most %g",
-                       info->surface.ndf.alpha_x, info->alpha_max, RANGE_MIN, PE_ALPHA_MAX);
+    if (!(range_of(info) > RANGE_MIN - 1e-9 && info->alpha_max <= PE_ALPHA_MAX))
+        return pe_fail(
+            error, PE_ERROR_ARGUMENT,
+            "alpha %g to %g is no range; the roughest is at least %g times the smoothest, and at most %g itself",
+            info->surface.ndf.alpha_x, info->alpha_max, RANGE_MIN, PE_ALPHA_MAX);
     roughest.ndf.alpha_y *= range_of(info);
     roughest.ndf.alpha_x = info->alpha_max;
     return pe_surface_check(&roughest, error);

@@ -102,7 +102,7 @@ like "$said" "warning: e.exr: the error of lookups is [0-9.]+ %, not the 0.05 % 
     "an error that was not reached is told"
 oiiotool --create 32x16 3 --box:color=9,9,9:fill=1 20,4,20,4 -d half -o lamp.exr
 said=$("$PREFENV" bake lamp.exr -o e.exr --normals 12 --size 8x8 --alpha 0.1 2>&1)
-like "$said" "warning: e.exr: lookups are off by about [0-9]+ %, which shows; give --quality high" \
+like "$said" "warning: e.exr: lookups are off by about [0-9]+ %, which shows; give more --normals, and a larger" \
     "and one that shows, too, where none was asked for"
 "$PREFENV" surface blasted -o heights.exr --size 64x64 --quiet &&
     "$PREFENV" ndf heights.exr -o cut.exr --wrap --quiet

@@ -356,6 +356,9 @@ static void test_refusals(void)
     } rows[] = {
         { { .method = PE_METHOD_GRADES, .layers = 3 }, PE_ERROR_ARGUMENT, "grades 3 are out of range" },
         { { .method = PE_METHOD_GRADES, .alpha_max = 0.01 }, PE_ERROR_ARGUMENT, "alpha 0.02 to 0.01 is no range" },
+        { { .method = PE_METHOD_GRADES, .alpha_max = 0.021 },
+          PE_ERROR_ARGUMENT,
+          "at least 1.1 times the smoothest, and" },
         { { .method = PE_METHOD_GRADES, .alpha_max = 3 }, PE_ERROR_ARGUMENT, "alpha 0.02 to 3 is no range" },
         { { .method = PE_METHOD_GRADES, .alpha_max = NAN }, PE_ERROR_ARGUMENT, "is no range" },
         { { .method = PE_METHOD_GRADES, .surface.ndf = { PE_NDF_GGX, 0.1, 1, NULL } },

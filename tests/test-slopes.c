@@ -484,14 +484,14 @@ static double step_of_png(int (*value)(int k), const char *path)
     return step;
 }
 
-/* Of five floats, multiples of `scale`, and a gap. */
+/* Of five floats, multiples of `scale`, and gaps, the first texel among them. */
 static double step_of_exr(double scale, const char *path)
 {
     pe_heights made = make_heights(16, 16, 1), read;
     double step;
 
     for (int k = 0; k < 256; k++)
-        made.values[k] = (float)(k == 50 ? NAN : scale * (k * 7 % 5 - 2));
+        made.values[k] = (float)(k % 50 == 0 ? NAN : scale * (k * 7 % 5 - 2));
     need(pe_heights_write(&made, path, NULL) == PE_OK && pe_heights_read(path, 0, 0, &read, NULL) == PE_OK,
          "heights cannot be written and read");
     step = read.step;

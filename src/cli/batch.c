@@ -76,11 +76,14 @@ static void note_flaws(batch *b, const char *environment, const pe_env *env)
 
 static const char *way_to_less(const pe_bake_options *options, const pe_maps_info *info)
 {
-    int more = options->error == 0 && options->quality == PE_QUALITY_NORMAL;
+    int chosen = options->normals == 0 && options->width == 0; /* by itself */
+    int more = chosen && options->error == 0 && options->quality == PE_QUALITY_NORMAL;
 
     switch (info->method) {
     case PE_METHOD_GRADES:
-        return more ? "give --quality high, or a smaller range of --alpha" : "give a smaller range of --alpha";
+        return more     ? "give --quality high, or a smaller range of --alpha"
+               : chosen ? "give a smaller range of --alpha"
+                        : "leave out --normals and --size, or give larger ones";
     case PE_METHOD_HEMISPHERES:
         return more ? "give --quality high" : "give more --normals, and a larger --size";
     case PE_METHOD_LAYERS:
