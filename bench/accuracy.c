@@ -5,12 +5,12 @@
  * their texels stand where every fifth of every fifth row of the others stands. */
 #include "check.h"
 #include "prefenv.h"
+#include "seconds.h"
 #include "vector.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #define FINER 5 /* odd, so that centres of texels fall together */
 
@@ -36,14 +36,6 @@ static pe_maps *bake(const pe_env *env, const setting *s, pe_accuracy accuracy, 
 
     check(pe_bake(env, &options, &maps, &error), &error);
     return maps;
-}
-
-static double seconds_of(clockid_t clock)
-{
-    struct timespec t;
-
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static errors errors_of(const pe_maps *fast, const pe_maps *exact)

@@ -5,11 +5,11 @@
 #include "check.h"
 #include "naive.h"
 #include "prefenv.h"
+#include "seconds.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #define ALPHA 0.1
 #define NORMALS 42
@@ -17,10 +17,7 @@
 /* Seconds; for one thread its own time, which other work on the machine does not stretch. */
 static double now(int threads)
 {
-    struct timespec t;
-
-    clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return seconds_of(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC);
 }
 
 /* The environment on a smaller grid: each texel the mean of 4 x 4 lookups. */

@@ -5,12 +5,12 @@
  * levels, the mean of the three channels. */
 #include "check.h"
 #include "prefenv.h"
+#include "seconds.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define WIDTH 512
 #define HEIGHT 256
@@ -19,14 +19,6 @@
 typedef struct times {
     double wall, processor;
 } times;
-
-static double seconds_of(clockid_t clock)
-{
-    struct timespec t;
-
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static times now(void)
 {

@@ -9,22 +9,19 @@
 #include "check.h"
 #include "fis.h"
 #include "prefenv.h"
+#include "seconds.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define TEXELS 1000 /* compared */
 #define VIEWS 600
 
 static double now(void)
 {
-    struct timespec t;
-
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 typedef struct comparison {

@@ -80,6 +80,12 @@ static void plan_poles(const pe_maps_info *info, double aspect, plan *p)
                           1 - CAP_SHARE / (p->pole_angles - 1));
 }
 
+/* Of a lobe: how many times as long as wide. */
+static double aspect_of(const double fineness[2])
+{
+    return fmax(fineness[0], fineness[1]) / fmin(fineness[0], fineness[1]);
+}
+
 /* A plan of this frequency, without sizes.  Returns how many images it has. */
 static double plan_images(const pe_maps_info *info, int frequency, plan *p)
 {
@@ -87,7 +93,7 @@ static double plan_images(const pe_maps_info *info, int frequency, plan *p)
 
     *p = (plan){ .frequency = frequency };
     pe_ndf_fineness(&info->surface.ndf, fineness);
-    aspect = fmax(fineness[0], fineness[1]) / fmin(fineness[0], fineness[1]);
+    aspect = aspect_of(fineness);
     if (info->angles == 1 && aspect > ASPECT_MIN)
         plan_poles(info, aspect, p);
     if (p->pole_angles)
@@ -105,15 +111,14 @@ static plan make_plan(const pe_maps_info *info, int frequency, double pitch)
 {
     int most = greatest_side(info);
     plan p;
-    double fineness[2], aspect, images = plan_images(info, frequency, &p);
+    double fineness[2], images = plan_images(info, frequency, &p);
 
     pe_ndf_fineness(&info->surface.ndf, fineness);
-    aspect = fmax(fineness[0], fineness[1]) / fmin(fineness[0], fineness[1]);
     p.width = info->width ? info->width : side_of(fineness[0], pitch, most);
     p.height = info->height ? info->height : side_of(fineness[1], pitch, most);
     p.bytes = images * p.width * p.height * BYTES_PER_TEXEL;
-    p.error =
-        hypot(NORMALS_ERROR * pow(frequency, -NORMALS_POWER), SPLINE_ERROR * sqrt(aspect) * pow(pitch, SPLINE_POWER));
+    p.error = hypot(NORMALS_ERROR * pow(frequency, -NORMALS_POWER),
+                    SPLINE_ERROR * sqrt(aspect_of(fineness)) * pow(pitch, SPLINE_POWER));
     return p;
 }
 

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "describe.h"
 #include "frames.h"
+#include "maps.h"
 #include "prefenv.h"
 #include "progress.h"
 #include "reflectance.h"
@@ -118,7 +119,7 @@ static const cli_option options[] = {
 
 static int has_roughness(const bake_settings *settings)
 {
-    return settings->method == PE_METHOD_LAYERS || settings->method == PE_METHOD_VOXELS;
+    return pe_method_has_lambda((pe_method)settings->method);
 }
 
 /* What says nothing with the method: the lobe of layers and voxels is Phong's, and has its width from each lookup. */

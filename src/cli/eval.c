@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "lines.h"
+#include "maps.h"
 #include "prefenv.h"
 
 typedef struct eval_settings {
@@ -72,7 +73,7 @@ static int check_method(const eval_settings *settings, const pe_maps *maps)
                       not_phong[] = "is for maps of the methods layers and voxels, whose lobe knows no surface; leave "
                                     "it out";
     const pe_method method = pe_maps_get_info(maps)->method;
-    const int phong = method == PE_METHOD_LAYERS || method == PE_METHOD_VOXELS;
+    const int phong = pe_method_has_lambda(method);
     const cli_rule rules[] = {
         { "interpolation", !phong && method != PE_METHOD_BASELINE, no_normals },
         { "horizon", phong, not_phong },
