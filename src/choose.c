@@ -225,6 +225,10 @@ void pe_choose_hemispheres(const pe_bake_options *options, double aim, pe_maps_i
 #define GRADES_POWER 4.0
 #define MIXED 0.8
 
+/* What lies between grades is small enough where it is so much of the error that each grade has by itself, which given
+ * normals or sizes may keep large: more grades would take time and memory for nothing. */
+#define GRADES_SHARE 0.1
+
 /* What a grade may be. */
 enum { MENU_FREQUENCIES = 20, MENU_PITCHES = 60 };
 #define MENU_PITCH_MIN 0.08
@@ -281,6 +285,11 @@ static plan buy(const menu *m, double price)
     return *best;
 }
 
+static double error_between(int grades, double octaves)
+{
+    return GRADES_ERROR * pow(octaves / (grades - 1), GRADES_POWER);
+}
+
 /* All grades at one price, which is how together they have the least error for their memory.  Returns what the whole
  * takes and how far it is off. */
 static plan buy_all(const menu *menus, int grades, double octaves, double price, plan *each)
@@ -293,7 +302,7 @@ static plan buy_all(const menu *menus, int grades, double octaves, double price,
         whole.bytes += each[k].bytes;
         square += each[k].error * each[k].error / grades;
     }
-    whole.error = hypot(MIXED * sqrt(square), GRADES_ERROR * pow(octaves / (grades - 1), GRADES_POWER));
+    whole.error = hypot(MIXED * sqrt(square), error_between(grades, octaves));
     return whole;
 }
 
@@ -333,6 +342,15 @@ static void fill_budget(const menu *menus, int grades, double budget, plan *each
         scale_sides(&menus[k].info, fmin(sqrt(budget / bytes), ROUNDING), &each[k]);
 }
 
+static int are_near(int grades, double octaves, double aim, const plan *each)
+{
+    double least = INFINITY;
+
+    for (int k = 0; k < grades; k++)
+        least = fmin(least, each[k].error);
+    return error_between(grades, octaves) < GRADES_SHARE * fmax(least, aim);
+}
+
 /* More grades as long as that is better for the whole. */
 static int choose_count(pe_maps_info *info, double octaves, double aim, double budget, menu *menus)
 {
@@ -347,6 +365,8 @@ static int choose_count(pe_maps_info *info, double octaves, double aim, double b
         whole = plan_grades(menus, grades, octaves, aim, budget, each);
         if (!is_better(&whole, &best, aim, budget))
             return grades - 1;
+        if (are_near(grades, octaves, aim, each))
+            return grades;
         best = whole;
     }
     return PE_GRADES_MAX;

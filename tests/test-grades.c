@@ -257,6 +257,30 @@ static void test_grades(void)
     pe_env_free(env);
 }
 
+/* Sizes that are given keep an error that no number of grades takes off. */
+static void test_count(void)
+{
+    static const struct {
+        double alpha_max, aim;
+        int side, most;
+    } rows[] = { { 0.12, 0, 12, 4 }, { 0.2, 0.0005, 16, 4 }, { 0.4, 0, 12, 6 } };
+
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        pe_bake_options options = options_of(PE_NDF_BECKMANN, 0.1);
+        pe_baker *baker;
+        pe_error error;
+
+        options.error = rows[k].aim;
+        options.alpha_max = rows[k].alpha_max;
+        options.normals = 12;
+        options.width = options.height = rows[k].side;
+        need(pe_baker_make(&options, WIDTH, HEIGHT, &baker, &error) == PE_OK, "%s", error.message);
+        ok(pe_baker_get_info(baker)->grades <= rows[k].most, "maps of %d texels from alpha 0.1 to %g: %d grades",
+           rows[k].side * rows[k].side, rows[k].alpha_max, pe_baker_get_info(baker)->grades);
+        pe_baker_free(baker);
+    }
+}
+
 static void test_white(void)
 {
     static view views[VIEWS];
@@ -385,6 +409,7 @@ int main(void)
     test_twins();
     test_angles();
     test_grades();
+    test_count();
     test_white();
     test_kept();
     test_refusals();
