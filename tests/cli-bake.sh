@@ -195,6 +195,17 @@ weights() # NAME PATTERN FILE
 weights "in a folder that is missing" "bake: nowhere/w.bin: cannot write into nowhere" nowhere/w.bin
 weights "as a link to nothing" "bake: dangling.exr: is a link to nothing" dangling.exr
 weights "of the maps file's name" "bake: x.exr: is the maps file and that of --weights" x.exr
+weights "of the maps file's name, written otherwise" "bake: x.exr: is the maps file and that of --weights" ./x.exr
+weights "of the maps file's name, out of a folder" "bake: x.exr: is the maps file and that of --weights" folder/../x.exr
+flat_hdr 4 2 >x1.hdr
+like "$("$PREFENV" bake 'x%d.hdr' --frames 1 -o 'x%d.exr' --method voxels --weights ./x1.exr 2>&1)" \
+    "bake: x1.exr: is the input ./x1.exr itself" "nor may a frame be the table of weights"
+rm x1.hdr
+touch there.exr
+ln there.exr hard.exr
+like "$("$PREFENV" bake missing.hdr -o hard.exr --method voxels --weights there.exr 2>&1)" \
+    "bake: hard.exr: is the maps file and that of --weights" "nor both one file under two names"
+rm there.exr hard.exr
 weights "without a name" "bake: the name of --weights is empty" ""
 rm dangling.exr
 refused "a PNG" "x.y.png: what is written is an OpenEXR; name it so, x.y.exr" x.y.png
@@ -303,7 +314,7 @@ like "$("$PREFENV" bake env.exr -o no.exr --method voxels --size 16 --threshold 
 like "$("$PREFENV" bake env.exr -o no.exr --method voxels --size 16 --weights env.exr 2>&1)" \
     'env.exr: is not a file of weights' "and what is none"
 like "$("$PREFENV" bake env.exr -o table.bin --method voxels --size 16 --weights table.bin 2>&1)" \
-    'table.bin: is the input table.bin itself' "a table is not written over by voxels"
+    'table.bin: is the maps file and that of --weights' "a table is not written over by voxels"
 "$PREFENV" bake env.exr -o dark.exr --method voxels --size 16 --threshold 0.1 --no-renormalise --quiet
 like "$("$PREFENV" info dark.exr)" '^threshold  0.1, what is left out is missing$' "--no-renormalise"
 "$PREFENV" bake env.exr -o exact.exr --method voxels --size 16 --exact --quiet

@@ -176,17 +176,17 @@ static int check_size(const bake_settings *settings)
 /* A table of weights takes a while to make: can it be written then? */
 static int check_weights(const bake_settings *settings)
 {
-    if (!settings->weights || access(settings->weights, F_OK) == 0)
+    if (!settings->weights)
         return CLI_SUCCESS;
     if (!*settings->weights) {
         cli_error("bake", "the name of --weights is empty; give a file, or leave it out");
         return CLI_FAILURE;
     }
-    if (strcmp(settings->weights, settings->output) == 0) {
+    if (cli_is_same_file(settings->weights, settings->output)) {
         cli_error("bake", "%s: is the maps file and that of --weights; give two names", settings->output);
         return CLI_FAILURE;
     }
-    return cli_check_new("bake", settings->weights);
+    return access(settings->weights, F_OK) == 0 ? CLI_SUCCESS : cli_check_new("bake", settings->weights);
 }
 
 /* A range of roughnesses, or layers of what is not Phong's lobe, are grades. */
@@ -262,6 +262,19 @@ static void set_options(const bake_settings *settings, const pe_surface *surface
     }
 }
 
+/* None of the files that are read, or kept, may be written over. */
+static int check_output(const bake_settings *settings, const char *environment, const char *output, const batch *b)
+{
+    const char *inputs[4] = { environment };
+    int count = 1;
+
+    if (b->measured)
+        inputs[count++] = b->measured;
+    if (settings->weights)
+        inputs[count] = settings->weights;
+    return cli_check_exr_output("bake", output, inputs);
+}
+
 /* ---- one ---- */
 
 static void print_summary(const bake_settings *settings, const batch *b, double seconds)
@@ -295,10 +308,9 @@ static void print_summary(const bake_settings *settings, const batch *b, double 
 
 static int bake_one(const bake_settings *settings, batch *b, double begun)
 {
-    const char *inputs[] = { settings->environment, settings->surface.ndf, settings->weights, NULL };
     int result;
 
-    if (cli_check_exr_output("bake", settings->output, inputs) != CLI_SUCCESS)
+    if (check_output(settings, settings->environment, settings->output, b) != CLI_SUCCESS)
         return CLI_FAILURE;
     b->count = 1;
     result = batch_make(b, settings->environment, settings->output);
@@ -333,12 +345,10 @@ static int for_each_frame(const bake_settings *settings, const frames *f, frame_
 /* Before hours of work: is every frame there, and can it be written? */
 static int check_frame(const bake_settings *settings, const char *environment, const char *output, batch *b)
 {
-    const char *inputs[] = { environment, settings->surface.ndf, settings->weights, NULL };
     struct stat about;
 
-    (void)b;
     if (stat(environment, &about) == 0)
-        return cli_check_exr_output("bake", output, inputs);
+        return check_output(settings, environment, output, b);
     cli_error("bake", "%s: %s; --frames %s needs it", environment, strerror(errno), settings->frames);
     return CLI_FAILURE;
 }

@@ -29,6 +29,9 @@ const char *cli_nearest(const char *typed, const char *const *words, size_t coun
 /* Writes out what waits in stdout.  CLI_FAILURE, with its error printed, if any of the output was lost. */
 int cli_flush(const char *command);
 
+/* Do two names mean one file, be it there or still to be written? */
+int cli_is_same_file(const char *a, const char *b);
+
 /* Can `output` be written?  Its folder must exist, it must not be a folder itself, and it must be none of
  * `inputs` (ended by NULL).  CLI_FAILURE, with its error printed, if not. */
 int cli_check_output(const char *command, const char *output, const char *const *inputs);

@@ -19,6 +19,31 @@ static char *folder_of(const char *path)
     return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
 }
 
+/* A file that is not there yet has a folder that is, and its name in it. */
+static int is_same_new_file(const char *a, const char *b)
+{
+    const char *slash_a = strrchr(a, '/'), *slash_b = strrchr(b, '/');
+    char *folder_a = folder_of(a), *folder_b = folder_of(b);
+    struct stat in_a, in_b;
+    int same = folder_a && folder_b && strcmp(slash_a ? slash_a + 1 : a, slash_b ? slash_b + 1 : b) == 0 &&
+               stat(folder_a, &in_a) == 0 && stat(folder_b, &in_b) == 0 && in_a.st_dev == in_b.st_dev &&
+               in_a.st_ino == in_b.st_ino;
+
+    free(folder_a);
+    free(folder_b);
+    return same;
+}
+
+int cli_is_same_file(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    int has_a = stat(a, &of_a) == 0, has_b = stat(b, &of_b) == 0;
+
+    if (has_a && has_b)
+        return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+    return !has_a && !has_b && is_same_new_file(a, b);
+}
+
 static int check_folder(const char *command, const char *output)
 {
     struct stat status;
@@ -61,26 +86,25 @@ static int check_replaced(const char *command, const char *output)
 
 int cli_check_output(const char *command, const char *output, const char *const *inputs)
 {
-    struct stat target, source;
+    struct stat target;
+    const int is_new = stat(output, &target) != 0;
 
     if (!*output) {
         cli_error(command, "the output's name is empty; give a file after -o");
         return CLI_FAILURE;
     }
-    if (stat(output, &target) != 0)
-        return cli_check_new(command, output);
-    if (S_ISDIR(target.st_mode)) {
+    if (!is_new && S_ISDIR(target.st_mode)) {
         cli_error(command, "%s: is a folder; name a file in it", output);
         return CLI_FAILURE;
     }
-    if (!S_ISREG(target.st_mode)) /* a device or a pipe is written straight */
+    if (!is_new && !S_ISREG(target.st_mode)) /* a device or a pipe is written straight */
         return CLI_SUCCESS;
     for (; *inputs; inputs++)
-        if (stat(*inputs, &source) == 0 && source.st_dev == target.st_dev && source.st_ino == target.st_ino) {
+        if (cli_is_same_file(*inputs, output)) {
             cli_error(command, "%s: is the input %s itself; give another name after -o", output, *inputs);
             return CLI_FAILURE;
         }
-    return check_replaced(command, output);
+    return is_new ? cli_check_new(command, output) : check_replaced(command, output);
 }
 
 /* What a name that ends so promises to be. */
