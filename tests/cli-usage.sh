@@ -117,7 +117,12 @@ done <<'TABLE'
 --alpha 0.1-0.5 --paper|--alpha 0.1-0.5: a range is for --method grades; give one width, or leave out --paper
 --alpha 0.1-0.5 --method voxels|--alpha 0.1-0.5: a range is for --method grades; give one width, or leave out the other
 --alpha 0.1-1.5 --aspect 0.5|alpha 1.5, 3 is out of range
---alpha 0.1,0.2 --aspect 3|--aspect does not go with --alpha 0.1,0.2
+--alpha 0.1,0.2 --aspect 3|--aspect 3 contradicts --alpha 0.1,0.2, which says both widths; leave it out
+--alpha 0.2,0.2 --aspect 2|--aspect 2 contradicts --alpha 0.2,0.2
+--alpha 0.1,0.03 --aspect 3.33333|x.hdr: cannot open: No such file
+--error 0.01 --quality high|--quality does not go with --error, which takes what memory it needs
+--error 0.0004|--error 0.0004: out of range: 0.0005 to 0.1
+--error 0.11|--error 0.11: out of range: 0.0005 to 0.1
 --alpha 0.1 --method grades|--method grades has a range of widths; give --alpha as in 0.02-0.5, or leave it out
 --ndf ./no.ndf.exr --aspect 2|--aspect does not go with --ndf
 --direction 1,2|three numbers are wanted

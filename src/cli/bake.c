@@ -132,6 +132,8 @@ static int check_method(const bake_settings *settings)
                       one_map[] = "does not go with --method baseline, which is one map; leave it out",
                       scale[] = "is for --method layers and voxels; leave it out or give both",
                       size_alone[] = "does not go with --method voxels, whose --size says all; leave it out",
+                      no_quality[] = "does not go with --error, which takes what memory it needs, up to that of "
+                                     "high; leave one of them out",
                       table[] = "is for --method voxels; leave it out or give both",
                       no_table[] = "is for a table of weights, which --exact goes without; leave one of them out";
     const int voxels = settings->method == PE_METHOD_VOXELS, rough = has_roughness(settings);
@@ -149,6 +151,7 @@ static int check_method(const bake_settings *settings)
         { "angles", !rough, by_lookup },
         { "window", rough, scale },
         { "levels", rough, scale },
+        { "quality", settings->error == 0, no_quality },
         { "error", !voxels, size_alone },
         { "quality", !voxels, size_alone },
         { "threshold", voxels, table },

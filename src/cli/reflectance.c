@@ -2,6 +2,7 @@
 #include "reflectance.h"
 #include "cli.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -35,16 +36,20 @@ static int read_table(const char *command, const cli_surface *asked, pe_ndf *ndf
     return CLI_SUCCESS;
 }
 
+/* A ratio of widths that are written with some digits. */
+#define SAME_ASPECT 1e-3
+
 static int choose_aspect(const char *command, const cli_surface *asked, pe_ndf *ndf)
 {
     if (asked->aspect == 0)
         return CLI_SUCCESS;
-    if (asked->alpha[0] != asked->alpha[1]) {
-        cli_error(command, "--aspect does not go with --alpha %g,%g, which says both widths; leave it out",
+    if (asked->alpha[1] > 0 && fabs(asked->alpha[1] * asked->aspect / asked->alpha[0] - 1) > SAME_ASPECT) {
+        cli_error(command, "--aspect %g contradicts --alpha %g,%g, which says both widths; leave it out", asked->aspect,
                   asked->alpha[0], asked->alpha[1]);
         return CLI_FAILURE;
     }
-    ndf->alpha_y = ndf->alpha_x / asked->aspect;
+    if (asked->alpha[1] == 0)
+        ndf->alpha_y = ndf->alpha_x / asked->aspect;
     return CLI_SUCCESS;
 }
 
@@ -55,9 +60,8 @@ static int choose_ndf(const char *command, const cli_surface *asked, pe_ndf *ndf
     for (int k = 0; k < CLOSED_FORMS; k++) {
         names[k] = closed_forms[k].name;
         if (strcmp(names[k], asked->ndf) == 0) {
-            *ndf = (pe_ndf){ closed_forms[k].kind, asked->alpha[0], asked->alpha[1], NULL };
-            if (ndf->alpha_x == 0)
-                ndf->alpha_x = ndf->alpha_y = 0.1;
+            *ndf = (pe_ndf){ .kind = closed_forms[k].kind, .alpha_x = asked->alpha[0] > 0 ? asked->alpha[0] : 0.1 };
+            ndf->alpha_y = asked->alpha[1] > 0 ? asked->alpha[1] : ndf->alpha_x;
             return choose_aspect(command, asked, ndf);
         }
     }

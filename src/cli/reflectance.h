@@ -7,7 +7,7 @@
 /* As the options fill it; zeros: not given. */
 typedef struct cli_surface {
     const char *ndf;
-    double alpha[3]; /* along, across; and where a range ends, which is of those along */
+    double alpha[3]; /* along; across, 0: as along; and where a range ends, which is of those along */
     double aspect;
     int weight;
     const char *material;

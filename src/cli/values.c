@@ -135,25 +135,35 @@ static int store_length(const cli_command *command, const cli_option *option, co
     return CLI_SUCCESS;
 }
 
-/* One value, which stands for two, or two. */
-static int store_two(const cli_command *command, const cli_option *option, const char *text, read_value *read,
-                     const char *wanted, double target[2])
+/* One value or two. */
+static int store_pair(const cli_command *command, const cli_option *option, const char *text, read_value *read,
+                      const char *wanted, double target[2])
 {
-    double values[2];
+    double values[2] = { 0, 0 };
     int count = read_values(text, read, ',', 2, values);
 
     if (count == 0)
         return refuse(command, option, text, "%s", wanted);
-    if (count == 1)
-        values[1] = values[0];
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < count; i++)
         if (!in_range(option, values[i]))
             return refuse_range(command, option, text);
     memcpy(target, values, sizeof values);
     return CLI_SUCCESS;
 }
 
-/* A range has a number before its '-', and none of them is below 0. */
+/* One length stands for two. */
+static int store_lengths(const cli_command *command, const cli_option *option, const char *text, double target[2])
+{
+    static const char wanted[] = "one length is wanted, or two as in 40um,8um";
+
+    if (store_pair(command, option, text, read_length, wanted, target) != CLI_SUCCESS)
+        return CLI_FAILURE;
+    if (target[1] == 0)
+        target[1] = target[0];
+    return CLI_SUCCESS;
+}
+
+/* Of one width the second is 0.  A range has a number before its '-', and none of them is below 0. */
 static int store_widths(const cli_command *command, const cli_option *option, const char *text, double target[3])
 {
     static const char wanted[] = "one number is wanted, two as in 0.1,0.03, or a range as in 0.02-0.5";
@@ -164,12 +174,13 @@ static int store_widths(const cli_command *command, const cli_option *option, co
             return refuse_range(command, option, text);
         if (!(values[0] < values[1]))
             return refuse(command, option, text, "a range is from the smaller number to the larger");
-        target[0] = target[1] = values[0];
+        target[0] = values[0];
+        target[1] = 0;
         target[2] = values[1];
         return CLI_SUCCESS;
     }
     target[2] = 0;
-    return store_two(command, option, text, read_number, wanted, target);
+    return store_pair(command, option, text, read_number, wanted, target);
 }
 
 static int store_triple(const cli_command *command, const cli_option *option, const char *text, double target[3])
@@ -250,7 +261,7 @@ int cli_store(const cli_command *command, const cli_option *option, const char *
     case CLI_LENGTH:
         return store_length(command, option, text, target);
     case CLI_LENGTHS:
-        return store_two(command, option, text, read_length, "one length is wanted, or two as in 40um,8um", target);
+        return store_lengths(command, option, text, target);
     case CLI_VECTOR:
         return store_vector(command, option, text, target);
     case CLI_TRIPLE:
