@@ -322,9 +322,10 @@ static pe_status choose_info(const pe_bake_options *options, double aim, int wid
 
 static pe_status check_error(double wanted, pe_error *error)
 {
-    if (wanted == 0 || (wanted >= 0.0005 && wanted <= 0.1))
+    if (wanted == 0 || (wanted >= PE_WANTED_ERROR_MIN && wanted <= PE_WANTED_ERROR_MAX))
         return PE_OK;
-    return pe_fail(error, PE_ERROR_ARGUMENT, "error %g is out of range; it lies between 0.0005 and 0.1", wanted);
+    return pe_fail(error, PE_ERROR_ARGUMENT, "error %g is out of range; it lies between %g and %g", wanted,
+                   PE_WANTED_ERROR_MIN, PE_WANTED_ERROR_MAX);
 }
 
 static pe_status check_enums(const pe_bake_options *options, pe_error *error)

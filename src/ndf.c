@@ -28,8 +28,8 @@ pe_status pe_ndf_check(const pe_ndf *ndf, pe_error *error)
     case PE_NDF_BECKMANN:
     case PE_NDF_GGX:
         return check_alphas(ndf, PE_ALPHA_MAX, "", error);
-    case PE_NDF_PHONG: /* beyond 1 the exponent is negative, and D infinite at the horizon */
-        return check_alphas(ndf, 1, " for phong", error);
+    case PE_NDF_PHONG:
+        return check_alphas(ndf, PE_PHONG_ALPHA_MAX, " for phong", error);
     case PE_NDF_TABLE:
         return ndf->table ? PE_OK : pe_fail(error, PE_ERROR_ARGUMENT, "ndf: a table is asked for and none is given");
     }

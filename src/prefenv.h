@@ -128,8 +128,8 @@ typedef enum pe_ndf_kind {
 
 typedef struct pe_ndf_table pe_ndf_table;
 
-/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX], of Phong's at most 1.  `table` is
- * for PE_NDF_TABLE, which ignores the alphas, and lives as long as what uses it. */
+/* alpha_x along the tangent t, alpha_y along b: both in [PE_ALPHA_MIN, PE_ALPHA_MAX], of Phong's at most
+ * PE_PHONG_ALPHA_MAX.  `table` is for PE_NDF_TABLE, which ignores the alphas, and lives as long as what uses it. */
 typedef struct pe_ndf {
     pe_ndf_kind kind;
     double alpha_x, alpha_y;
@@ -138,6 +138,7 @@ typedef struct pe_ndf {
 
 #define PE_ALPHA_MIN 0.001
 #define PE_ALPHA_MAX 2.0
+#define PE_PHONG_ALPHA_MAX 1.0 /* beyond it the exponent is negative, and D infinite at the horizon */
 
 /* A density over the plane of slopes (p, q) = tan(theta_h) (cos phi_h, sin phi_h), p along t, q along b:
  * D(h) = P(p, q) / cos^4(theta_h).  `density` holds width * height floats, none below 0, in cells that divide the two
@@ -491,6 +492,11 @@ typedef enum pe_accuracy {
 #define PE_GRADES_ALPHA_MIN 0.02
 #define PE_GRADES_ALPHA_MAX 1.0
 
+/* The relative error that may be asked for, and one of lookups that shows: worth a warning where none was asked for. */
+#define PE_WANTED_ERROR_MIN 0.0005
+#define PE_WANTED_ERROR_MAX 0.1
+#define PE_VISIBLE_ERROR 0.05
+
 /* A struct of zeros means the defaults. */
 typedef struct pe_bake_options {
     pe_method method;
@@ -502,8 +508,9 @@ typedef struct pe_bake_options {
     int width, height;   /* of a map, in texels, each in [8, 8192]; 0: as the lobe needs.  Lat-long maps: in [2, 8192];
                             0: 400 x 200 */
     int angles;          /* hemispheres: brush directions each normal is filtered for, 1 or 4 to 64; 0: 1 */
-    pe_quality quality;
-    double error; /* the relative error wanted of what is looked up, 0.0005 to 0.1; 0: what `quality` gives */
+    pe_quality quality;  /* ignored where `error` is given, which takes what it needs, up to PE_QUALITY_HIGH's memory */
+    double error;        /* the relative error wanted of what is looked up, PE_WANTED_ERROR_MIN to PE_WANTED_ERROR_MAX;
+                            0: what `quality` gives */
     pe_accuracy accuracy;
 
     /* Layers and voxels, which heed of those above accuracy and, layers, width and height of the smoothest alone (its

@@ -87,7 +87,8 @@ static const cli_option options[] = {
       "--direction" },
     { "quality", 0, "NAME", CLI_CHOICE, offsetof(bake_settings, quality), 0, 0, qualities, "normal", 0,
       "how much memory normals and sizes may take: normal, 10 MB; high, 64 MB" },
-    { "error", 0, "E", CLI_NUMBER, offsetof(bake_settings, error), 0.0005, 0.1, NULL, NULL, 0,
+    { "error", 0, "E", CLI_NUMBER, offsetof(bake_settings, error), PE_WANTED_ERROR_MIN, PE_WANTED_ERROR_MAX, NULL, NULL,
+      0,
       "the relative error wanted of what is looked up, of lat-long maps that of their texels: 0.01 is one percent. "
       "Default: what --quality gives" },
     { "exact", 0, NULL, CLI_SWITCH, offsetof(bake_settings, exact), 0, 0, NULL, NULL, 0,

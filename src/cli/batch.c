@@ -71,9 +71,6 @@ static void note_flaws(batch *b, const char *environment, const pe_env *env)
     cli_warn_of_flaws("bake", environment, env);
 }
 
-/* An error of lookups that shows, and is worth a word where none was asked for. */
-#define ERROR_THAT_SHOWS 0.05
-
 static const char *way_to_less(const pe_bake_options *options, const pe_maps_info *info)
 {
     int chosen = options->normals == 0 && options->width == 0; /* by itself */
@@ -103,7 +100,7 @@ static void warn_of_error(batch *b, const pe_maps *maps, const char *output)
     double wanted = b->options.error, reached = of_lookups ? info->lookup_error : info->error_estimate;
     const char *way = way_to_less(&b->options, info);
 
-    if (b->quiet || b->made > 0 || reached <= (wanted > 0 ? wanted : ERROR_THAT_SHOWS))
+    if (b->quiet || b->made > 0 || reached <= (wanted > 0 ? wanted : PE_VISIBLE_ERROR))
         return;
     progress_clear(&b->bar);
     if (wanted > 0)
