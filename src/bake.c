@@ -462,7 +462,7 @@ pe_status pe_baker_bake(const pe_baker *b, const pe_env *env, const pe_bake_erro
         return pe_multiscale_bake(b->multiscale, env, known, out, error);
     if (status == PE_OK && b->grades)
         return pe_baker_bake_grades(b, env, known, out, error);
-    info.source_name = env->name;
+    pe_maps_set_source(&info, env);
     if (status == PE_OK)
         status = pe_maps_create(&info, &j.maps, error);
     if (status != PE_OK)

@@ -49,7 +49,7 @@ static pe_status make_maps(frames *f, pe_error *error)
     for (int k = 0; k < f->count && status == PE_OK; k++) {
         pe_maps_info info = f->baker->info;
 
-        info.source_name = f->fine[k]->name;
+        pe_maps_set_source(&info, f->fine[k]);
         status = pe_maps_create(&info, &f->maps[k], error);
         if (status == PE_OK) {
             f->maps[k]->info.surface.ndf.table = NULL; /* the caller's, who may free it */

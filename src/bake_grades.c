@@ -137,7 +137,7 @@ static pe_status create_maps(job *j, const pe_suns *suns, pe_error *error)
     pe_maps_info info = j->baker->info, each[PE_GRADES_MAX];
     pe_status status;
 
-    info.source_name = j->env->name;
+    pe_maps_set_source(&info, j->env);
     for (int k = 0; k < info.grades; k++)
         each[k] = j->baker->grades[k]->info;
     status = pe_grades_create(&info, each, &j->maps, error);

@@ -6,6 +6,7 @@
 #include "vector.h"
 
 #include <float.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -342,6 +343,24 @@ void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3])
             rgb[c] += taps[k].share *
                       (double)env->rgb[3 * ((size_t)taps[k].y * (size_t)env->width + (size_t)taps[k].x) + (size_t)c];
     }
+}
+
+/* FNV-1a [FNV] over the sizes and the bits of the texels, 32 of them at a time. */
+unsigned long long pe_env_fingerprint(const pe_env *env)
+{
+    const uint64_t prime = 0x100000001b3;
+    uint64_t hash = 0xcbf29ce484222325;
+    const uint32_t size[2] = { (uint32_t)env->width, (uint32_t)env->height };
+
+    for (int k = 0; k < 2; k++)
+        hash = (hash ^ size[k]) * prime;
+    for (size_t k = 0; k < 3 * (size_t)env->width * (size_t)env->height; k++) {
+        uint32_t bits;
+
+        memcpy(&bits, &env->rgb[k], sizeof bits);
+        hash = (hash ^ bits) * prime;
+    }
+    return hash ? hash : 1;
 }
 
 void pe_env_mean(const pe_env *env, double rgb[3])

@@ -194,6 +194,12 @@ pe_status pe_maps_complete_info(pe_maps_info *info, pe_error *error)
     return status == PE_OK ? check_size(info, error) : status;
 }
 
+void pe_maps_set_source(pe_maps_info *info, const pe_env *env)
+{
+    info->source_name = env->name;
+    info->source_fingerprint = pe_env_fingerprint(env);
+}
+
 static pe_status allocate(pe_maps *maps, const char *source_name, const char *ndf_name, pe_error *error)
 {
     pe_status status = PE_OK;

@@ -49,6 +49,9 @@ struct pe_maps {
     pe_maps **grades; /* info.grades hemispheres: none of the above is used but the suns, which are theirs */
 };
 
+/* What maps say of the environment that they are made of, but for its size.  The name stays the environment's. */
+void pe_maps_set_source(pe_maps_info *info, const pe_env *env);
+
 /* As files and people call them: by pe_method, whose default has none, and by pe_ndf_kind. */
 #define PE_METHOD_NAMES \
     { \

@@ -8,11 +8,11 @@
  *
  * Attributes of the first part: prefenv:version, :method,
  * :weight, :eta, :k, :ndf, :ndfName, :alphaX, :alphaY, :direction, :normals, :source, :sourceWidth, :sourceHeight,
- * :accuracy, :errorEstimate, :errorWanted (which may be missing); of hemispheres :angles, :width, :height,
- * :lookupError, :poleAngles, :poleCosine, :suns, :turn (the degrees that the angles divide), and for each sun
- * :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width, :threshold
- * and :lost; of grades :grades, :alphaMax, :lookupError, :angles, :suns, :turn, the suns, and, in each grade's first
- * part, :grade.alphaX, :grade.alphaY, :grade.normals, :grade.width, :grade.height, :grade.poleAngles,
+ * :accuracy, :errorEstimate, :errorWanted and :sourceFingerprint (which may be missing); of hemispheres :angles,
+ * :width, :height, :lookupError, :poleAngles, :poleCosine, :suns, :turn (the degrees that the angles divide), and for
+ * each sun :sun.00.direction and :sun.00.power; of layers and voxels :size, :window, :levels, :lookupError, :width,
+ * :threshold and :lost; of grades :grades, :alphaMax, :lookupError, :angles, :suns, :turn, the suns, and, in each
+ * grade's first part, :grade.alphaX, :grade.alphaY, :grade.normals, :grade.width, :grade.height, :grade.poleAngles,
  * :grade.poleCosine and :grade.lookupError; the two alphas are for people, and follow from the first part's. */
 #ifndef PE_MAPS_FILE_H
 #define PE_MAPS_FILE_H
@@ -30,6 +30,7 @@ static const char *const pe_weight_names[] = { "ndf", "microfacet" };
 static const char *const pe_ndf_names[] = PE_NDF_NAMES;
 
 #define PE_SUN_NAME_MAX 40
+#define PE_FINGERPRINT_DIGITS 16 /* hexadecimal */
 
 static inline pe_attribute pe_attribute_integer(const char *name, int value)
 {

@@ -126,6 +126,23 @@ static pe_status check_suns(const header *from, const pe_maps_info *info)
     return PE_OK;
 }
 
+/* Files from before there was this attribute do not tell. */
+static pe_status read_fingerprint(const header *from, pe_maps_info *info)
+{
+    pe_attribute a = pe_attribute_string("prefenv:sourceFingerprint", "");
+    char shown[SHOWN_BYTES];
+
+    if (!pe_exr_get_attribute(from->file, from->part, &a))
+        return PE_OK;
+    if (strlen(a.string) == PE_FINGERPRINT_DIGITS && strspn(a.string, "0123456789abcdef") == PE_FINGERPRINT_DIGITS) {
+        info->source_fingerprint = strtoull(a.string, NULL, 16);
+        return PE_OK;
+    }
+    show(a.string, shown);
+    return pe_fail(from->error, PE_ERROR_FORMAT, "%s: prefenv:sourceFingerprint '%s' is not %d hexadecimal digits",
+                   from->name, shown, PE_FINGERPRINT_DIGITS);
+}
+
 /* What hemispheres have besides. */
 static pe_status read_hemispheres_info(const header *from, pe_maps_info *info)
 {
@@ -250,6 +267,7 @@ static pe_status read_info(const header *from, pe_maps_info *info)
     AND_THEN(get_integer(from, "prefenv:sourceHeight", &info->source_height))
     AND_THEN(get_choice(from, "prefenv:accuracy", pe_accuracy_names, COUNT(pe_accuracy_names), &accuracy))
     AND_THEN(get_number(from, "prefenv:errorEstimate", &info->error_estimate))
+    AND_THEN(read_fingerprint(from, info))
     if (status != PE_OK)
         return status;
     info->method = (pe_method)method;

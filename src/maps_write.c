@@ -7,13 +7,13 @@
 #include <string.h>
 
 #define PART_NAME_MAX 48
-#define ATTRIBUTES 17
+#define ATTRIBUTES 18
 #define HEMISPHERE_ATTRIBUTES 8
 #define ROUGHNESS_ATTRIBUTES 7
 #define GRADES_ATTRIBUTES 6
 #define GRADE_ATTRIBUTES 8
 
-static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
+static void describe(const pe_maps_info *info, const char *fingerprint, pe_attribute out[ATTRIBUTES])
 {
     const pe_attribute all[ATTRIBUTES] = {
         pe_attribute_integer("prefenv:version", PE_MAPS_FORMAT_VERSION),
@@ -33,6 +33,7 @@ static void describe(const pe_maps_info *info, pe_attribute out[ATTRIBUTES])
         pe_attribute_string("prefenv:accuracy", pe_accuracy_names[info->accuracy]),
         pe_attribute_number("prefenv:errorEstimate", info->error_estimate),
         pe_attribute_number("prefenv:errorWanted", info->error_wanted),
+        pe_attribute_string("prefenv:sourceFingerprint", fingerprint),
     };
 
     memcpy(out, all, sizeof all);
@@ -104,6 +105,7 @@ typedef struct part_room {
     char name[PART_NAME_MAX];
     pe_attribute attributes[ATTRIBUTES + HEMISPHERE_ATTRIBUTES + GRADE_ATTRIBUTES + 2 * PE_SUNS_MAX];
     char sun_names[2 * PE_SUNS_MAX][PE_SUN_NAME_MAX];
+    char fingerprint[PE_FINGERPRINT_DIGITS + 1];
 } part_room;
 
 static size_t describe_suns(const pe_suns *suns, part_room *room, pe_attribute *out)
@@ -154,7 +156,9 @@ static void fill_part(const pe_maps *maps, int k, part_room *room, pe_exr_part *
         count += GRADE_ATTRIBUTES;
     }
     if (k == 0) {
-        describe(&maps->info, room->attributes + count);
+        snprintf(room->fingerprint, sizeof room->fingerprint, "%0*llx", PE_FINGERPRINT_DIGITS,
+                 maps->info.source_fingerprint);
+        describe(&maps->info, room->fingerprint, room->attributes + count);
         count += ATTRIBUTES;
     }
     if (k == 0 && maps->info.method == PE_METHOD_HEMISPHERES) {

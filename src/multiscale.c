@@ -284,7 +284,7 @@ pe_status pe_multiscale_bake(const pe_multiscale *m, const pe_env *env, const pe
     pe_maps *maps;
     pe_status status;
 
-    info.source_name = env->name;
+    pe_maps_set_source(&info, env);
     status = pe_maps_create(&info, &maps, error);
     if (status != PE_OK)
         return status;

@@ -107,6 +107,10 @@ const char *pe_env_name(const pe_env *env);    /* the file's name without its fo
 size_t pe_env_repairs(const pe_env *env);      /* texels repaired on load */
 const char *pe_env_remark(const pe_env *env);  /* what is doubtful as an environment, a sentence; or "" */
 
+/* Tells environments apart, whatever their files are called: a number that is the same for the same texels, and for
+ * others hardly ever.  Never 0. */
+unsigned long long pe_env_fingerprint(const pe_env *env);
+
 /* Radiance from `direction` (any length but zero), bilinear between texel centres, over the poles and around. */
 void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);
 
@@ -549,6 +553,8 @@ typedef struct pe_maps_info {
     int suns;           /* lights kept apart from the images */
     const char *source_name;
     int source_width, source_height;
+    /* pe_env_fingerprint of the environment; 0: a file that does not tell */
+    unsigned long long source_fingerprint;
     pe_accuracy accuracy;     /* EXACT or FAST */
     double error_estimate;    /* relative L2 error of the texels against Eq. 5 where n.r > 0.15; 0 for exact */
     double error_wanted;      /* of the options, or what their quality means; 0: a file that does not tell */
@@ -580,7 +586,7 @@ typedef struct pe_baker pe_baker;
 pe_status pe_baker_make(const pe_bake_options *options, int width, int height, pe_baker **baker, pe_error *error);
 void pe_baker_free(pe_baker *baker); /* NULL is allowed */
 
-/* What its maps will say of themselves, but for source_name, suns and errors. */
+/* What its maps will say of themselves, but for source_name, source_fingerprint, suns and errors. */
 const pe_maps_info *pe_baker_get_info(const pe_baker *baker);
 
 /* What maps record as error_estimate and lookup_error. */

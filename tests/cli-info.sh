@@ -13,13 +13,31 @@ trap 'rm -rf "$work"' EXIT
     bail_out "bake does not work"
 
 json=$("$PREFENV" info --json maps.exr)
-is "$(jq -cS . <<<"$json")" "$(jq -cnS '{file: "maps.exr", kind: "maps", format_version: 4, method: "representative",
-    weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0],
+is "$(jq -cS 'del(.source_fingerprint)' <<<"$json")" "$(jq -cnS '{file: "maps.exr", kind: "maps",
+    format_version: 4, method: "representative", weight: "ndf", eta: [0, 0, 0], k: [0, 0, 0],
     ndf: "beckmann", ndf_name: "", alpha: [0.2, 0.05], direction: [1, 0, 0],
     normals: 42, frequency: 2, angles: 1, suns: 0, images: 21, width: 16, height: 8,
     source_name: "a \"city\".hdr", source_width: 8, source_height: 4, accuracy: "exact", error_estimate: 0,
     lookup_error: 0}')" \
     "--json says all, and is JSON"
+fingerprint() # ENV
+{
+    "$PREFENV" bake "$1" -o print.exr --paper --size 16x8 --json | jq -r .source_fingerprint
+}
+is "$(fingerprint 'a "city".hdr')" "$(jq -r .source_fingerprint <<<"$json")" "the environment has its own fingerprint"
+like "$(jq -r .source_fingerprint <<<"$json")" '^[0-9a-f]{16}$' "of 16 digits"
+oiiotool 'a "city".hdr' -d float --compression zips -o one.exr
+oiiotool one.exr --compression none -o copy.exr
+oiiotool one.exr --fill:color=0.1,0.1,0.1 1x1+5+3 -o other.exr
+is "$(fingerprint copy.exr)" "$(fingerprint one.exr)" "which a copy, packed otherwise, has, too"
+fails "and one with another texel has not" test "$(fingerprint other.exr)" = "$(fingerprint one.exr)"
+LC_ALL=C sed 's/sourceFingerprint/sourceFingerprinT/' maps.exr >older.exr
+is "$("$PREFENV" info --json older.exr | jq -c '[.normals, .source_fingerprint]')" '[42,""]' \
+    "a file from before there was one does not tell"
+LC_ALL=C sed "s/$(jq -r .source_fingerprint <<<"$json")/no number at all/" maps.exr >broken.exr
+like "$("$PREFENV" info broken.exr 2>&1)" \
+    "broken.exr: prefenv:sourceFingerprint 'no number at all' is not 16 hexadecimal digits" \
+    "one that is no number is refused"
 
 text=$("$PREFENV" info maps.exr)
 like "$text" '^file       maps.exr$' "the text names the file"

@@ -126,7 +126,8 @@ static void test_round_trip(pe_method method, pe_pixel_type type, int height)
            info->width == again->width && info->height == again->height &&
            info->surface.ndf.alpha_y == again->surface.ndf.alpha_y && info->direction[2] == again->direction[2] &&
            info->accuracy == again->accuracy && info->source_width == again->source_width &&
-           info->error_estimate == again->error_estimate && strcmp(info->source_name, again->source_name) == 0,
+           info->error_estimate == again->error_estimate && info->source_fingerprint == pe_env_fingerprint(env) &&
+           again->source_fingerprint == info->source_fingerprint && strcmp(info->source_name, again->source_name) == 0,
        "what the file says of itself is what was written");
     ok(worst_difference(maps, back) <= (type == PE_PIXEL_FLOAT ? 0 : 0x1p-11), "%d rows of %s come back %s", height,
        type == PE_PIXEL_FLOAT ? "floats" : "halves", type == PE_PIXEL_FLOAT ? "bit for bit" : "as the nearest half");

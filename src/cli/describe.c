@@ -168,6 +168,7 @@ void describe_maps_json(json *out, const pe_maps *maps)
     const pe_maps_info *info = pe_maps_get_info(maps);
     const double alpha[2] = { info->surface.ndf.alpha_x, info->surface.ndf.alpha_y };
     const double direction[3] = { info->direction[0], info->direction[1], info->direction[2] };
+    char fingerprint[17];
 
     json_integer(out, "format_version", info->format_version);
     json_text(out, "method", method_name(info->method));
@@ -192,6 +193,8 @@ void describe_maps_json(json *out, const pe_maps *maps)
     json_text(out, "source_name", info->source_name);
     json_integer(out, "source_width", info->source_width);
     json_integer(out, "source_height", info->source_height);
+    snprintf(fingerprint, sizeof fingerprint, "%016llx", info->source_fingerprint);
+    json_text(out, "source_fingerprint", info->source_fingerprint ? fingerprint : "");
     json_text(out, "accuracy", info->accuracy == PE_ACCURACY_FAST ? "fast" : "exact");
     if (info->smoothness.size) {
         json_integer(out, "size", info->smoothness.size);
