@@ -62,6 +62,14 @@ picture nearest 'hdr "chart.hdr" roughness 0.1, 0.3 method Prefenv_Nearest'
 picture linear 'hdr "chart.hdr" roughness 0.1, 0.3 method Prefenv_Linear'
 fails 'method goes with a bake, too' "$PREFENV" diff nearest.exr linear.exr --fail-above 1e-3
 
+# Of so few texels no maps are nearer, however much memory they may have.
+picture missed 'hdr "chart.hdr" roughness 0.05 accuracy 0.0005'
+like "$said" "Parse Warning: The reflection of 'chart.hdr' is off by about [0-9.]+ %, where accuracy 0.0005 asks for \
+0.05 %: the maps that are baked for a block come no nearer. samples is exact" 'an accuracy that is missed is warned of'
+picture shows 'hdr "chart.hdr" roughness 0.05'
+like "$said" "Parse Warning: The reflection of 'chart.hdr' is off by about [0-9.]+ %: accuracy 0.005 in the block" \
+    '... and an error that shows, where none was asked for'
+
 # ---- shared ----
 
 block='hdr "chart.hdr" roughness 0.2'

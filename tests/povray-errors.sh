@@ -50,12 +50,12 @@ wrong 'samples 0' 'hdr "chart.hdr" roughness 0.1 samples 0' 'samples must be a w
 wrong 'samples 1.5' 'hdr "chart.hdr" roughness 0.1 samples 1.5' 'samples must be a whole number .*1.5 was given'
 wrong 'traced without samples' 'hdr "chart.hdr" roughness 0.1 traced' \
     'traced says that the directions of samples are traced: give their number, such as samples 64'
-wrong 'maps traced' 'exr "maps.exr" traced' 'This file holds maps baked for one roughness: remove .*traced'
+wrong 'maps traced' 'exr "maps.exr" traced' "'maps.exr' holds maps baked for one roughness: remove .*traced"
 wrong 'a negative highlight' 'exr "maps.exr" highlight -1' \
     'highlight must be on, off or an amount that is not negative, but -1 was given'
 wrong 'a highlight with what is no distribution' 'exr "measured.exr" highlight exr "maps.exr"' 'maps.exr'
 wrong 'a highlight of measured maps without their file' 'exr "measured.exr" highlight' \
-    'These maps are of a measured distribution, .*highlight exr "cut.ndf.exr"'
+    "'measured.exr' holds maps of a measured distribution, .*highlight exr \"cut.ndf.exr\""
 wrong '... with a file for others' 'exr "maps.exr" highlight exr "cut.ndf.exr"' \
     'highlight takes a file with maps of a measured distribution only'
 wrong '... and in the scene' 'hdr "chart.hdr" type exr "cut.ndf.exr" highlight exr "cut.ndf.exr"' \
@@ -63,9 +63,9 @@ wrong '... and in the scene' 'hdr "chart.hdr" type exr "cut.ndf.exr" highlight e
 wrong 'half a ray' 'hdr "chart.hdr" roughness 0.1 interreflection 1.5' \
     'interreflection must be a whole number of rays from 0 to 1000000, but 1.5 was given'
 wrong 'maps without their environment' 'exr "maps.exr" interreflection 8' \
-    'interreflection needs the environment that these maps were baked from: .*interreflection 8 exr "chart.hdr"'
+    "interreflection needs the environment that 'maps.exr' was baked from: .*interreflection 8 exr \"chart.hdr\""
 wrong 'maps for their environment' 'exr "maps.exr" interreflection 8 exr "maps.exr"' \
-    'interreflection needs the environment that these maps were baked from'
+    "interreflection needs the environment that 'maps.exr' was baked from"
 wrong 'an environment twice' 'hdr "chart.hdr" roughness 0.1 interreflection 8 hdr "chart.hdr"' \
     'interreflection takes a file behind its number with maps only'
 wrong 'interreflection and samples' 'hdr "chart.hdr" roughness 0.1 samples 4 interreflection 8' \
@@ -77,8 +77,8 @@ wrong 'an accuracy out of range' 'hdr "chart.hdr" roughness 0.1 accuracy 0' \
 wrong 'a misspelled word' 'hdr "chart.hdr" rougness 0.1' \
     'rougness is not a word of prefiltered_environment. Its words are: .*roughness, lambda, .*highlight'
 wrong 'no direction' 'hdr "chart.hdr" roughness 0.1 samples 4 direction 0' 'direction must not be <0, 0, 0>'
-wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' 'This file holds maps baked for one roughness.*remove'
-wrong 'maps with samples' 'exr "maps.exr" samples 20' 'This file holds maps'
+wrong 'maps with a roughness' 'exr "maps.exr" roughness 0.2' "'maps.exr' holds maps baked for one roughness.*remove"
+wrong 'maps with samples' 'exr "maps.exr" samples 20' "'maps.exr' holds maps"
 wrong 'uv_mapping without a direction' 'hdr "chart.hdr" roughness 0.1 uv_mapping' \
     'uv_mapping and pattern say how .*give a direction'
 wrong 'a pattern without a direction' 'exr "maps.exr" pattern { bozo }' 'uv_mapping and pattern say how'
@@ -93,12 +93,12 @@ wrong 'a word of something else' 'hdr "chart.hdr" roughness 0.1 ambient 0.1' \
 wrong 'an index of nothing' 'hdr "chart.hdr" roughness 0.1 ior 0.1, 0.1' \
     'the index of refraction 0.1 .* is no conductor'
 wrong 'type 4' 'hdr "chart.hdr" roughness 0.1 type 4' 'type must be 1 \(Beckmann\), 2 .*but 4 was given'
-wrong 'maps with a type' 'exr "maps.exr" type 2' 'This file holds maps'
+wrong 'maps with a type' 'exr "maps.exr" type 2' "'maps.exr' holds maps"
 wrong 'a type out of no distribution' 'hdr "chart.hdr" type exr "maps.exr"' 'maps.exr'
 wrong 'a plain environment alone' 'hdr "chart.hdr"' \
-    'This file is a plain environment: give the roughness of the surface'
+    "'chart.hdr' is a plain environment: give the roughness of the surface"
 wrong 'a plain environment without roughness' 'hdr "chart.hdr" samples 4' \
-    'This file is a plain environment: .*roughness'
+    "'chart.hdr' is a plain environment: .*roughness"
 wrong 'a plain environment with samples and a method' 'hdr "chart.hdr" roughness 0.1 samples 4 method 2' \
     'method and exponent say how prefiltered maps are looked up, but samples'
 wrong 'three roughnesses' 'hdr "chart.hdr" roughness <0.1, 0.2, 0.3>' 'roughness takes one or two values, .* but 3 were'
@@ -109,7 +109,7 @@ wrong 'an unknown word' 'exr "maps.exr" gloss 3' ''
 
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { exr "maps.exr" } } }'
 rejected 'maps as a pigment' \
-    "File 'error.pov' line 4: Parse Error: This file holds prefiltered maps, .*baked from" error.pov
+    "File 'error.pov' line 4: Parse Error: 'maps.exr' holds prefiltered maps, .*baked from" error.pov
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment {
     hdr "chart.hdr" interreflection 0 exr "maps.exr" } } }'
 rejected 'a file behind interreflection in a pigment' 'line 5: Parse Error: In a pigment, .*interreflection' error.pov
@@ -119,6 +119,61 @@ scene error.pov <<<'plane { y, 0 normal { prefiltered_environment { hdr "chart.h
 rejected 'as a normal' "line 4: Parse Error: .*prefiltered_environment.* can only be used in a pigment" error.pov
 scene error.pov <<<'sky_sphere { pigment { prefiltered_environment { hdr "chart.hdr" } color_map { [0 rgb 1] } } }'
 rejected 'a pigment with a color_map' "line 4: Parse Error: Cannot use color_map" error.pov
+
+# ---- the environment behind interreflection ----
+
+# source_of NAME ENVIRONMENT WARNINGS [MAPS]: how often maps are said to be of another environment.
+source_of()
+{
+    local maps=${4:-maps.exr}
+
+    reflection "exr \"$maps\" interreflection 2 hdr \"$2\""
+    render error.pov +W8 +H8 -F
+    is "$render_status $(grep -o "line 5: Parse Warning: '$maps' was baked from .* names another: '${2##*/}' of" \
+        <<<"$said" | wc -l)" "0 $3" "$1" || note "$said"
+}
+
+mkdir others
+cp chart.hdr copy.hdr
+"$rays" chart 16 8 0 >others/chart.hdr || bail_out 'no other chart'
+chart larger.hdr 32 16
+LC_ALL=C sed 's/sourceFingerprint/sourceFingerprinT/' maps.exr >older.exr
+LC_ALL=C sed 's/prefenv:source\x00/prefenv:sourcE\x00/' older.exr >nameless.exr
+source_of 'the environment that maps are of, behind interreflection' chart.hdr 0
+source_of '... a copy of it' copy.hdr 0
+source_of '... another of its name and size is warned of' others/chart.hdr 1
+source_of '... and one of another size' larger.hdr 1
+source_of 'maps that have no fingerprint go by the name' chart.hdr 0 older.exr
+source_of '... which a copy has not' copy.hdr 1 older.exr
+source_of '... if there is one' others/chart.hdr 0 nameless.exr
+source_of '... and by the size' larger.hdr 1 nameless.exr
+
+# ---- identifiers of the scene's own ----
+
+# own NAME DECLARATIONS: NAME.exr of words that are not reserved
+own()
+{
+    scene own.pov <<END
+$2
+camera { location -5*z look_at 0 right 2*x up y }
+light_source { <3, 4, -5> rgb Grey }
+sphere { -x, 1 pigment { rgb 1 } finish { ambient Grey diffuse 0
+  reflection { 1 prefiltered_environment { hdr "chart.hdr" roughness 0.3 highlight samples 4 traced } } } }
+sphere { x, 1 pigment { rgb 1 } finish { ambient 0 diffuse 0
+  reflection { 1 prefiltered_environment { exr "maps.exr" highlight 2 interreflection 4 hdr "chart.hdr" } } } }
+sphere { -y, 0.3 pigment { rgb 1 } finish { ambient 0 diffuse 0
+  reflection { 1 prefiltered_environment { hdr "chart.hdr" lambda 0.7 highlight highlight off } } } }
+END
+    render own.pov +W32 +H16 +FE "+O$1.exr" || note "$said"
+}
+
+own free '#declare Grey = 0.7;'
+own floats '#declare traced = 0.7; #declare interreflection = 0; #declare highlight = 0.9; #declare Grey = traced;'
+ok 'identifiers of the names of words: these are words still' "$PREFENV" diff floats.exr free.exr --fail-above 0
+own others '#declare traced = function { x }; #declare interreflection = "none"; #declare highlight = <1, 2, 3>;
+    #declare Grey = 0.7 * highlight.x;'
+ok '... of whatever they are' "$PREFENV" diff others.exr free.exr --fail-above 0
+wrong 'a word in quotes' 'hdr "chart.hdr" roughness 0.1 "highlight"' 'Expected .*method, exponent'
 
 # ---- where files are found ----
 

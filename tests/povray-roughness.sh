@@ -218,8 +218,8 @@ wrong 'grades with a type' 'exr "grades.exr" roughness 0.2 type 2' '.*maps of on
 wrong 'grades of another shape' 'exr "brushed.exr" roughness 0.2, 0.4' '.*2 times as large along .* but 0.2, 0.4 was'
 wrong 'grades without shadows' 'exr "grades.exr" roughness 0.2 shadowless' 'shadowless lets light .* lambda'
 wrong 'shadowless microfacets' 'hdr "chart.hdr" roughness 0.5 samples all shadowless' 'shadowless lets light .* lambda'
-wrong 'maps of one roughness' 'exr "maps.exr" roughness function { x }' 'This file holds maps baked for one roughness'
-wrong 'maps with samples all' 'exr "maps.exr" samples all' 'This file holds maps baked for one roughness'
+wrong 'maps of one roughness' 'exr "maps.exr" roughness function { x }' "'maps.exr' holds maps baked for one roughness"
+wrong 'maps with samples all' 'exr "maps.exr" samples all' "'maps.exr' holds maps baked for one roughness"
 wrong 'a pigment with a roughness' 'hdr "chart.hdr" roughness' 'Numeric expression|Expected'
 wrong 'many roughnesses, and none said' 'exr "layers.exr"' '.*many roughnesses: say which the surface has'
 wrong 'many roughnesses with samples' 'exr "voxels.exr" roughness 0.2 samples all' \
