@@ -73,11 +73,11 @@ static double draw_at(const pe_directions *d, const double u[2], double w[3], do
     return 1;
 }
 
-double pe_directions_draw(const pe_directions *d, int k, double w[3], double share[3])
+double pe_directions_draw(const pe_directions *d, int k, int count, double w[3], double share[3])
 {
     double u[2];
 
-    pe_lattice_point(k, d->offsets, u);
+    pe_golden_point(k, count, d->offsets, u);
     return draw_at(d, u, w, share);
 }
 
@@ -107,10 +107,10 @@ static bool choose_candidate(const pe_directions *d, double w[3], double share[3
     double sum = 0, lot = d->offsets[0] * 7919;
 
     for (int k = 0; k < CANDIDATES; k++)
-        sum += pe_directions_draw(d, k, w, share);
+        sum += pe_directions_draw(d, k, CANDIDATES, w, share);
     lot = (lot - floor(lot)) * sum;
     for (int k = 0; k < CANDIDATES && sum > 0; k++) {
-        lot -= pe_directions_draw(d, k, w, share);
+        lot -= pe_directions_draw(d, k, CANDIDATES, w, share);
         if (lot < 0)
             return true;
     }
@@ -123,7 +123,7 @@ void pe_directions_one(const pe_directions *d, double w[3], double share[3])
     bool visible = d->surface.ndf.kind == PE_NDF_BECKMANN || d->surface.ndf.kind == PE_NDF_GGX;
 
     if (d->surface.weight == PE_WEIGHT_MICROFACET) {
-        pe_directions_draw(d, 0, w, share);
+        pe_directions_draw(d, 0, 1, w, share);
         return;
     }
     if (!(visible ? first_visible(d, w, share) : choose_candidate(d, w, share)))

@@ -130,6 +130,23 @@ double pe_ndf_reach(const pe_ndf *ndf, double limit)
     return INFINITY;
 }
 
+double pe_ndf_spread(const pe_ndf *ndf, double share)
+{
+    double a = fmax(ndf->alpha_x, ndf->alpha_y);
+
+    switch (ndf->kind) {
+    case PE_NDF_BECKMANN:
+        return atan(a * sqrt(-log(share)));
+    case PE_NDF_GGX:
+        return atan(a * sqrt(1 / share - 1));
+    case PE_NDF_PHONG:
+        return acos(pow(share, a * a / 2));
+    case PE_NDF_TABLE:
+        return pe_ndf_table_spread(ndf->table, share);
+    }
+    return M_PI / 2;
+}
+
 void pe_ndf_fineness(const pe_ndf *ndf, double width[2])
 {
     width[0] = ndf->kind == PE_NDF_TABLE ? ndf->table->fineness[0] : ndf->alpha_x;

@@ -58,6 +58,8 @@ struct pe_ndf_table {
 double pe_ndf_table_density(const pe_ndf_table *table, double p, double q);
 void pe_ndf_table_sample(const pe_ndf_table *table, double u1, double u2, double *p, double *q);
 
+double pe_ndf_table_spread(const pe_ndf_table *table, double share);
+
 /* Fills in `masking`; 0 if memory does not suffice. */
 int pe_ndf_table_mask(pe_ndf_table *table);
 

@@ -431,3 +431,25 @@ pe_status pe_ndf_table_read(const char *path, pe_ndf_table **table, pe_error *er
     free(bytes);
     return status;
 }
+
+/* From the horizon down, by angles of a four thousandth of a quarter turn.  Between the centres of cells the density is
+ * bilinear, so that what one holds may be as far out as its neighbours' centres. */
+double pe_ndf_table_spread(const pe_ndf_table *table, double share)
+{
+    enum { STEPS = 4000 };
+    double held[STEPS + 1] = { 0 }, sum = 0, beyond = 0;
+    int step = STEPS;
+
+    for (int y = 0; y < table->height; y++)
+        for (int x = 0; x < table->width; x++) {
+            double p = fabs(table->p_min + (x + 0.5) * table->p_step) + table->p_step;
+            double q = fabs(table->q_min + (y + 0.5) * table->q_step) + table->q_step;
+            float density = table->density[(size_t)(y + 1) * (size_t)table->row + (size_t)x + 1];
+
+            held[(int)(atan(hypot(p, q)) / (M_PI / 2) * STEPS)] += density;
+            sum += density;
+        }
+    while (step > 0 && (beyond += held[step]) <= share * sum)
+        step--;
+    return (step + 1.0) / STEPS * (M_PI / 2);
+}

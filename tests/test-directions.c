@@ -63,7 +63,7 @@ static void reflect_many(const pe_env *env, const pe_surface *surface, const dou
     for (int k = 0; k < count; k++) {
         double w[3], share[3], light[3];
 
-        total += pe_directions_draw(&d, k, w, share);
+        total += pe_directions_draw(&d, k, count, w, share);
         pe_env_lookup(env, w, light);
         for (int c = 0; c < 3; c++)
             sums[c] += share[c] * light[c];
@@ -208,7 +208,7 @@ static void test_everything(void)
         viewer_at(trial / 36 % 6 * 0.31415, trial, o);
         pe_directions_begin(&surface, zero, n, o, zero, &d);
         for (int k = 0; k < 100; k++) {
-            double counts = pe_directions_draw(&d, k, w, share);
+            double counts = pe_directions_draw(&d, k, 100, w, share);
 
             wrong += !(fabs(pe_dot(w, w) - 1) < 1e-9) || !(counts == 0 || counts == 1);
             wrong += !(share[0] >= 0 && share[0] <= 1 + 1e-9 && share[0] == share[2]);
