@@ -49,7 +49,8 @@ CLONES unsigned pe_lobe_meets_boxes(const pe_lobe_cone *cone, const pe_tilted_bo
         along = dot_octets(centre, cone->axes);
         for (int c = 0; c < 3; c++)
             m[c] = centre[c] - along * cone->axes[c];
-        scale = dot_octets(m, m) + FLT_MIN;
+        /* What is left of a centre on the axis is rounding, and leads anywhere: of no length it does no harm. */
+        scale = dot_octets(m, m) + 1e-10F * dot_octets(centre, centre) + FLT_MIN;
         for (int i = 0; i < PE_BOXES; i++)
             scale[i] = sqrtf(scale[i]);
         scale = (float)cone->cosine / scale;

@@ -119,18 +119,17 @@ static bool into_polar(const pe_lobe_cone *cone, double m[3])
     return true;
 }
 
-/* The plane that touches the lobe on the side where the point is; its axis, if it is on that. */
+/* The plane that touches the lobe on the side where the point is.  Where that is on the axis, to within rounding, which
+ * leads anywhere, it is the one across the axis. */
 static void touch(const pe_lobe_cone *cone, const double point[3], double m[3])
 {
     double along = pe_dot(point, cone->axis), across;
 
     for (int c = 0; c < 3; c++)
         m[c] = point[c] - along * cone->axis[c];
-    across = sqrt(pe_dot(m, m));
+    across = sqrt(pe_dot(m, m) + 1e-20 * pe_dot(point, point));
     for (int c = 0; c < 3; c++)
         m[c] = cone->sine * cone->axis[c] - (across > 0 ? cone->cosine / across * m[c] : 0);
-    if (across == 0)
-        pe_scale(1, cone->axis, m);
 }
 
 /* The next m, where a point reaches over its plane by `over`; false if there is none. */
@@ -150,17 +149,18 @@ static bool in_lobe(const pe_lobe_cone *cone, const double point[3], double slac
 /* How high the lobe's origin is above the surface of a half space, or on its side of a plane; the normal there. */
 static double height_above(const pe_lobe_cone *cone, const pe_convex *body, double normal[3])
 {
-    double from[3], height;
+    double from[3], height, rounding;
 
     pe_normalize(body->axes[2], normal);
     for (int c = 0; c < 3; c++)
         from[c] = cone->origin[c] - body->centre[c];
     height = pe_dot(normal, from);
-    if (body->kind == PE_CONVEX_PLANE && (height < 0 || (height == 0 && pe_dot(normal, cone->facet) < 0))) {
+    rounding = ROUNDING * length(from, 3);
+    if (body->kind == PE_CONVEX_PLANE && (fabs(height) <= rounding ? pe_dot(normal, cone->facet) < 0 : height < 0)) {
         pe_scale(-1, normal, normal);
         height = -height;
     }
-    return height + body->slack + ROUNDING * length(from, 3);
+    return height + rounding;
 }
 
 /* Is all of the lobe above that surface? */
@@ -187,7 +187,7 @@ bool pe_lobe_beside(const pe_lobe_cone *cone, const pe_convex *body)
         return above(cone, body);
     for (int c = 0; c < 3; c++)
         centre[c] = body->centre[c] - cone->origin[c];
-    rounding = body->slack + ROUNDING * length(centre, 3);
+    rounding = (body->kind == PE_CONVEX_TRIANGLE ? body->slack : 0) + ROUNDING * length(centre, 3);
     if (pe_dot(centre, cone->facet) + pe_convex_reach(body, cone->facet) <= rounding)
         return true;
     if (cone->cosine < 0)

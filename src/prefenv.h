@@ -467,7 +467,8 @@ typedef enum pe_convex_kind {
     PE_CONVEX_PLANE       /* that plane itself, all of it */
 } pe_convex_kind;
 
-/* A convex body, or one that holds what is not convex.  Rays that start on it may be off by `slack`, a length. */
+/* A convex body, or one that holds what is not convex.  Rays that start on a triangle, whose corners may be in single
+ * precision, may be off by `slack`, a length. */
 typedef struct pe_convex {
     pe_convex_kind kind;
     double centre[3], axes[3][3], radius[2];

@@ -246,6 +246,32 @@ static void test_ball(void)
        clear, missed, wrong);
 }
 
+/* Small ones right on the axis, or nearly, where what is left of their place beside it is rounding. */
+static void test_axis(void)
+{
+    static const double off[] = { 0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-5 };
+    int wrong = 0;
+
+    for (int trial = 0; trial < 6000; trial++) {
+        pe_convex ball = { .kind = PE_CONVEX_BALL };
+        pe_occluders *occluders = make();
+        lobe l = random_lobe(4, 0.6);
+        double side[3], distance = between(0.5, 20);
+
+        direction(side);
+        for (int c = 0; c < 3; c++) {
+            ball.centre[c] = l.origin[c] + distance * (l.axis[c] + off[trial % 6] * side[c]);
+            ball.axes[c][c] = distance * 1e-3;
+        }
+        pe_scale(1, l.axis, l.facet);
+        add(occluders, &ball, 1);
+        need(pe_occluders_finish(occluders), "no memory");
+        wrong += look(occluders, &l) == PE_SIGHT_CLEAR;
+        pe_occluders_free(occluders);
+    }
+    ok(wrong == 0, "a small ball on the axis, or nearly: %d are not seen", wrong);
+}
+
 /* ---- surfaces ---- */
 
 /* From a point of each of a shell's triangles, along or against their normals: the share that is clear. */
@@ -390,6 +416,7 @@ int main(void)
         test_points((pe_convex_kind)kind, names[kind]);
     test_overlap();
     test_ball();
+    test_axis();
     test_shell();
     test_planes();
     test_spread();
