@@ -1,20 +1,10 @@
 /* occluders_boxes.c - are boxes beside a lobe?  Several at once, and by two planes alone: that of the facet, and the
  * one that touches the lobe on the side where a box has its centre. */
+#include "lanes.h"
 #include "occluders.h"
 
 #include <float.h>
 #include <math.h>
-
-/* Vectors never cross a function that is not inlined, so how they would be passed does not matter. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(PE_NO_TARGET_CLONES)
-#define CLONES __attribute__((target_clones("arch=x86-64-v3", "default"), optimize("no-math-errno")))
-#else
-#define CLONES
-#endif
-
-#define INLINE static inline __attribute__((always_inline))
 
 INLINE pe_octet magnitude(pe_octet v)
 {
@@ -36,7 +26,7 @@ INLINE pe_octet boxes_reach(const pe_tilted_boxes *boxes, const pe_octet centre[
     return reach;
 }
 
-CLONES unsigned pe_lobe_meets_boxes(const pe_lobe_cone *cone, const pe_tilted_boxes *boxes)
+SAME_CLONES unsigned pe_lobe_meets_boxes(const pe_lobe_cone *cone, const pe_tilted_boxes *boxes)
 {
     pe_octet centre[3], m[3], along, scale;
     pe_octet_bits meets;

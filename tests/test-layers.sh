@@ -6,7 +6,7 @@
 # From the ground up.  Rooms joined by a slash stand side by side.  A file belongs to the room that its name begins
 # with: image_png.c to image.  prefenv.h is the house, and open to all.
 rooms=(
-    status vector occluders lanes/quad sequence parallel file image/exr env/shrink pyramid ndf heights slopes geodesic
+    status vector lanes/quad occluders sequence parallel file image/exr env/shrink pyramid ndf heights slopes geodesic
     dome poles
     disc/spline/atlas globe/layering surface viewer directions lobe filter cluster/tiles strip kernel denominator suns
     truth/phong/horizon highlight weights maps look baseline/hemispheres/pairs/layers/voxels sample estimate choose
