@@ -243,14 +243,20 @@ static int add_node(pe_occluders *occluders, const part_set *set)
     return number;
 }
 
+/* Whole trees of u = 8^k parts have (u - 1) / 7 nodes, and but for the last of its children each is one; what that
+ * leaves over is one node a level, of which there are 11 below 2^31 parts. */
+static int nodes_at_most(int count)
+{
+    return count / (PE_BOXES - 1) + 12;
+}
+
 bool pe_occluders_tree(pe_occluders *occluders)
 {
     int count = occluders->part_count - occluders->unbounded;
     int *parts = malloc((size_t)(count + 1) * sizeof *parts);
     part_set all = { parts, count, { { 0 } } };
 
-    /* Every node but the root has two children or more, and no part is in two. */
-    occluders->nodes = aligned_alloc(sizeof(pe_octet), (size_t)(count + 1) * sizeof *occluders->nodes);
+    occluders->nodes = aligned_alloc(sizeof(pe_octet), (size_t)nodes_at_most(count) * sizeof *occluders->nodes);
     if (parts == NULL || occluders->nodes == NULL) {
         free(parts);
         return false;
