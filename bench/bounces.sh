@@ -31,7 +31,7 @@ die()
 
 side=${SIDE:-160}
 samples=${SAMPLES:-4 64 256 1024 4096}
-rays=${RAYS:-2 4 5 8 16 32 64}
+rays=${RAYS:-2 3 4 5 8 16 32 64}
 truth=${TRUTH:-4096}
 [[ $side =~ ^[1-9][0-9]*$ ]] || die "SIDE is '$side', and should be pixels, such as 160"
 [[ $truth =~ ^[1-9][0-9]*$ ]] || die "TRUTH is '$truth', and should be a number of rays, such as 4096"
