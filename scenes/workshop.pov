@@ -5,7 +5,11 @@
 //   Declare=Mode=2   the lookup, corrected by Declare=Rays=N where they meet something
 //   Declare=Mode=3   white where the metal is, black elsewhere
 //
-// Looked for along Library_Path: environment.exr, and for modes 0 and 2 workshop.pe.exr, baked from it with alpha 0.15.
+// Looked for along Library_Path: environment.exr, and for modes 0 and 2 workshop.pe.exr, baked from it:
+//
+//   prefenv bake environment.exr -o workshop.pe.exr --alpha 0.15
+//
+// where environment.exr is any panorama; `make table1` takes courtyard.exr, 256x128.
 // Declare=Shift moves all of it, which changes the noise and nothing else.
 
 #version unofficial 3.7;

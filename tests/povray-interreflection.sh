@@ -196,6 +196,33 @@ plain=$(rmse plain.exr truth.exr) corrected=$(rmse corrected.exr truth.exr)
 note "behind a pane: relative RMSE of the lookup $plain, corrected by 5 rays $corrected"
 ok 'behind a pane: what it lets through is no noise' holds "$corrected < 0.015 && $plain > 0.03"
 
+# Fog that lets nothing through hides the sky behind it once, as fog does that lets next to nothing through.
+ground='fog { fog_type 2 distance 1e-6 fog_offset -1.5 fog_alt 1e-6 up y color rgb '
+one black.exr 'exr "maps.exr" interreflection 64 hdr "chart.hdr"' "$ground 0 }"
+one dark.exr 'exr "maps.exr" interreflection 64 hdr "chart.hdr"' "$ground 0.001 }"
+one plain.exr 'exr "maps.exr"' "$ground 0 }"
+note "black ground fog beside fog that is nearly black: $(rmse black.exr dark.exr); without rays $(rmse plain.exr dark.exr)"
+ok 'fog that is black hides what it hides once' holds "$(rmse black.exr dark.exr) < 0.01 && $(rmse plain.exr dark.exr) > 0.1"
+
+# A triangle far away makes a mesh large; what is near is in the way all the same.
+scene far.pov <<'END'
+camera { location <0, 2, -4> look_at -0.5*y }
+sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 diffuse 0
+    reflection { 1 prefiltered_environment { exr "maps.exr" interreflection 16 hdr "chart.hdr" } } } }
+mesh {
+    #for (I, -8, 7) #for (J, -8, 7)
+        triangle { <I, -1, J>, <I + 1, -1, J>, <I, -1, J + 1> }
+        triangle { <I + 1, -1, J + 1>, <I + 1, -1, J>, <I, -1, J + 1> }
+    #end #end
+    #ifdef (Far) triangle { <0, 0, 1e6>, <1, 0, 1e6>, <0, 1, 1e6> } #end
+    pigment { rgb 0 } finish { ambient 0 diffuse 0 }
+}
+END
+render far.pov +W$size +H$size +FE +Onear.exr || note "$said"
+render far.pov +W$size +H$size +FE +Ofar.exr Declare=Far=1 || note "$said"
+ok 'a floor in a mesh is in the way, however large the mesh' "$PREFENV" diff far.exr near.exr --fail-above 0.005
+note "$tap_output"
+
 # A sun in one texel, and black things before it: a ray that meets one of them with the sun behind takes no more away
 # than there is, and none that passes adds more, so that no place is darker than black or brighter than the lookup, with
 # however few rays.
