@@ -8,6 +8,7 @@
 #include "prefenv.h"
 #include "sequence.h"
 #include "surface.h"
+#include "vector.h"
 #include "viewer.h"
 
 #include <stdbool.h>
@@ -79,6 +80,18 @@ double pe_directions_draw(const pe_directions *d, int k, int count, double w[3],
 
     pe_golden_point(k, count, d->offsets, u);
     return draw_at(d, u, w, share);
+}
+
+double pe_directions_density(const pe_directions *d, const double w[3])
+{
+    const pe_ndf *ndf = &d->surface.ndf;
+    double h[3] = { d->o[0] + pe_dot(d->t, w), d->o[1] + pe_dot(d->b, w), d->o[2] + pe_dot(d->n, w) }, density;
+
+    pe_normalize(h, h);
+    density = pe_ndf_evaluate(ndf, h) / 4;
+    if (ndf->kind == PE_NDF_BECKMANN || ndf->kind == PE_NDF_GGX)
+        return density / (d->o[2] * (1 + pe_ndf_lambda(ndf, d->o)));
+    return density * h[2] / pe_dot(d->o, h);
 }
 
 /* ---- one alone ---- */

@@ -117,6 +117,16 @@ void pe_env_lookup(const pe_env *env, const double direction[3], double rgb[3]);
 /* The mean radiance over the sphere. */
 void pe_env_mean(const pe_env *env, double rgb[3]);
 
+/* An environment as footprints of any size see it: for rays that each stand for a solid angle [Křivánek].  Immutable;
+ * the environment must outlive it.  One of 1024x512 takes 2 MB and a tenth of a second. */
+typedef struct pe_mipmap pe_mipmap;
+
+pe_status pe_mipmap_make(const pe_env *env, pe_mipmap **mipmap, pe_error *error);
+void pe_mipmap_free(pe_mipmap *mipmap); /* NULL is allowed */
+
+/* The mean radiance around `direction`, unit, over about solid_angle_sr, above 0. */
+void pe_mipmap_lookup(const pe_mipmap *mipmap, const double direction[3], double solid_angle_sr, double rgb[3]);
+
 /* Direction (unit) of the point (u, v) of a lat-long map, and back: u in [0, 1), v in [0, 1]. */
 void pe_latlong_direction(double u, double v, double direction[3]);
 void pe_latlong_coordinates(const double direction[3], double *u, double *v);
@@ -450,6 +460,9 @@ void pe_directions_begin(const pe_surface *surface, const double direction[3], c
  * channel by channel, over the sum of what is returned; visible normals are drawn where that has a formula (Beckmann
  * and GGX).  Where share is 0 nothing comes from w, which may lie below the surface. */
 double pe_directions_draw(const pe_directions *directions, int k, int count, double w[3], double share[3]);
+
+/* The density per steradian with which `w`, unit, is drawn. */
+double pe_directions_density(const pe_directions *directions, const double w[3]);
 
 /* One direction alone: the mean of share L(w) over many points is what is reflected.  With phong or a table, and
  * PE_WEIGHT_NDF, nearly so: it is one of 32. */

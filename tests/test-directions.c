@@ -1,6 +1,7 @@
 /* test-directions.c - claims: directions drawn for a viewer reflect what pe_exact says, many of them at a point or one
  * at each of many points, for every distribution and weight, from straight above to grazing; visible normals make all
- * directions of Eq. 4 count alike; whatever is asked, directions are unit and shares are numbers. */
+ * directions of Eq. 4 count alike; each stands for its solid angle; whatever is asked, directions are unit and shares
+ * are numbers. */
 #include "ndf.h"
 #include "prefenv.h"
 #include "reference.h"
@@ -122,6 +123,36 @@ static void test_surface(const pe_env *env, const pe_surface *surface)
        kinds[surface->ndf.kind], surface->ndf.alpha_x, surface->ndf.alpha_y, what, furthest, tolerance);
 }
 
+/* What directions in a cap about the mirrored one stand for, 1 / density, adds up to its solid angle. */
+static void test_density(const pe_surface *surface)
+{
+    enum { COUNT = 20000 };
+    static const double seed[3] = { 4, 1, 7 };
+    double furthest = 0, radius = surface->ndf.table ? 0.3 : fmin(surface->ndf.alpha_y, 0.3);
+
+    for (int k = 0; k < 4; k++) {
+        double o[3], mirrored[3], sum = 0, squares = 0, cap = 2 * M_PI * (1 - cos(radius)), mean, error;
+        pe_directions d;
+
+        viewer_at(0.4 * k, 0.7 + 1.3 * k, o);
+        pe_reflect(o, n, mirrored);
+        pe_directions_begin(surface, brush, n, o, seed, &d);
+        for (int i = 0; i < COUNT; i++) {
+            double w[3], share[3], sr;
+
+            pe_directions_draw(&d, i, COUNT, w, share);
+            sr = pe_dot(w, mirrored) > cos(radius) ? 1 / pe_directions_density(&d, w) : 0;
+            sum += sr;
+            squares += sr * sr;
+        }
+        mean = sum / COUNT;
+        error = sqrt((squares / COUNT - mean * mean) / COUNT);
+        furthest = worst_of(furthest, worst_of(fabs(mean - cap) - 0.005 * cap, 0) / error);
+    }
+    ok(furthest < 3, "%s %g, %g: directions stand for their solid angle, within %.1f standard errors, beyond half a %%",
+       kinds[surface->ndf.kind], surface->ndf.alpha_x, surface->ndf.alpha_y, furthest);
+}
+
 enum { SIDE = 8, DRAWS = 40000, FINE = 40 };
 
 /* How often a half vector of DRAWS should fall into the square (x, y) of SIDE * SIDE over slopes of +-2 alpha. */
@@ -232,6 +263,7 @@ int main(void)
             pe_surface surface = { .ndf = { (pe_ndf_kind)kind, alphas[k][0], alphas[k][1], NULL } };
 
             test_surface(env, &surface);
+            test_density(&surface);
             surface.weight = PE_WEIGHT_MICROFACET;
             need(pe_material("copper", surface.eta, surface.k), "no copper");
             if (kind != PE_NDF_PHONG)
@@ -241,6 +273,7 @@ int main(void)
         pe_surface surface = { .ndf = { .kind = PE_NDF_TABLE, .table = table }, .weight = (pe_weight)weight };
 
         test_surface(env, &surface);
+        test_density(&surface);
     }
     for (int k = 0; k < 8; k++)
         test_visible(k % 2 ? PE_NDF_GGX : PE_NDF_BECKMANN, 0.3, k / 2 % 2 ? 0.3 : 0.8, k / 4 ? 1.45 : 0.8);

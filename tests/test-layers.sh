@@ -7,7 +7,7 @@
 # with: image_png.c to image.  prefenv.h is the house, and open to all.
 rooms=(
     status vector lanes/quad occluders sequence parallel file image/exr env/shrink pyramid ndf heights slopes geodesic
-    dome poles
+    dome mipmap poles
     disc/spline/atlas globe/layering surface viewer directions lobe filter cluster/tiles strip kernel denominator suns
     truth/phong/horizon highlight weights maps look baseline/hemispheres/pairs/layers/voxels sample estimate choose
     multiscale bake cli
