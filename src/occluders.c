@@ -6,6 +6,7 @@
 #include "vector.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,12 +43,25 @@ static void *more_room(void *things, int count, int more, int *room, size_t size
     return things;
 }
 
+/* Does a body say where it is? */
+static bool is_somewhere(const pe_convex *body)
+{
+    double sum = body->radius[0] + body->radius[1] + body->slack;
+
+    for (int c = 0; c < 3; c++)
+        sum += body->centre[c] + body->axes[0][c] + body->axes[1][c] + body->axes[2][c];
+    return isfinite(sum);
+}
+
 int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count)
 {
     pe_part *part, added = { occluders->body_count, count };
     pe_convex *to;
+    bool somewhere = count > 0;
 
-    if (count == 0) {
+    for (int i = 0; i < count; i++)
+        somewhere = somewhere && is_somewhere(&bodies[i]);
+    if (!somewhere) {
         occluders->everywhere = true;
         return 1;
     }
@@ -80,7 +94,8 @@ int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count
 
 int pe_occluders_finish(pe_occluders *occluders)
 {
-    return pe_occluders_tree(occluders);
+    occluders->finished = pe_occluders_tree(occluders);
+    return occluders->finished;
 }
 
 /* ---- lobes ---- */
@@ -147,7 +162,7 @@ pe_sight pe_lobe_sight(const pe_occluders *occluders, const double origin[3], co
     make_cone(origin, facet, axis, half_angle, &cone);
     if (is_covered(occluders, &cone))
         return PE_SIGHT_COVERED;
-    if (occluders->everywhere)
+    if (occluders->everywhere || !occluders->finished)
         return PE_SIGHT_UNKNOWN;
     for (int i = 0; i < occluders->unbounded; i++)
         if (!part_beside(occluders, &occluders->parts[i], &cone))

@@ -48,6 +48,7 @@ struct pe_occluders {
     int body_room, part_room;
     int unbounded;
     bool everywhere; /* something is there that no body tells of */
+    bool finished;   /* the tree stands */
 };
 
 /* How far from its centre a body reaches along m. */

@@ -493,7 +493,8 @@ typedef struct pe_occluders pe_occluders;
 pe_occluders *pe_occluders_create(void);         /* NULL if memory does not suffice */
 void pe_occluders_free(pe_occluders *occluders); /* NULL is allowed */
 
-/* Adds what stands where all of `count` bodies overlap; none: it may be anywhere.  0 if memory does not suffice. */
+/* Adds what stands where all of `count` bodies overlap; of none, or with a number that is not finite: it may be
+ * anywhere.  0 if memory does not suffice. */
 int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count);
 
 /* After the last is added, and before the first lobe is asked for.  0 if memory does not suffice. */
@@ -507,7 +508,7 @@ typedef enum pe_sight {
 
 /* What stands in the directions less than half_angle, in radians, away from `axis` and above the facet (its normal),
  * both of length 1, as seen from `origin` on or off the bodies.  Some hundred nanoseconds, of meshes a microsecond; for
- * any number of threads at a time. */
+ * any number of threads at a time.  Unknown before pe_occluders_finish. */
 pe_sight pe_lobe_sight(const pe_occluders *occluders, const double origin[3], const double facet[3],
                        const double axis[3], double half_angle);
 

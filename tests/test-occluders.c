@@ -1,7 +1,7 @@
 /* test-occluders.c - claims: a lobe that is said to be clear holds no point of any body, whatever bodies there are, of
  * which some are parts of others, and however many; most that are clear are said to be, by a closed form for balls;
- * what is convex never hides the sky from itself; planes cover what leads to them; pe_ndf_spread() leaves out the
- * share it says. */
+ * what is convex never hides the sky from itself; what is not known is not clear; planes cover what leads to them;
+ * pe_ndf_spread() leaves out the share it says. */
 #include "ndf.h"
 #include "prefenv.h"
 #include "sequence.h"
@@ -321,6 +321,23 @@ static double shell(double scale, double place, double side)
     return clear / (double)(STEPS * STEPS - STEPS);
 }
 
+/* What is not known is not clear: before the last is added, and where a number is none. */
+static void test_unknown(void)
+{
+    static const double origin[3] = { 0 }, up[3] = { 0, 0, 1 };
+    pe_convex ball = { .kind = PE_CONVEX_BALL, .centre = { 0, 0, -5 }, .axes = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+    pe_occluders *occluders = pe_occluders_create();
+
+    need(occluders != NULL && pe_occluders_add(occluders, &ball, 1), "no memory");
+    ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "a lobe is not clear before all is told");
+    need(pe_occluders_finish(occluders), "no memory");
+    ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_CLEAR, "but then");
+    ball.centre[0] = NAN;
+    need(pe_occluders_add(occluders, &ball, 1) && pe_occluders_finish(occluders), "no memory");
+    ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "nor where a ball is nowhere");
+    pe_occluders_free(occluders);
+}
+
 static void test_shell(void)
 {
     static const double scales[] = { 1, 1e-3, 1e5 }, places[] = { 0, 3, 1000 };
@@ -417,6 +434,7 @@ int main(void)
     test_overlap();
     test_ball();
     test_axis();
+    test_unknown();
     test_shell();
     test_planes();
     test_spread();
