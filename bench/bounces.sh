@@ -16,8 +16,9 @@
 # standard output, table1.json and table1.svg in the build tree.  Some five minutes on two idle cores; SIDE, SAMPLES,
 # RAYS and TRUTH make it shorter or better.
 #
-# Fails if a corrected lookup takes more than four times the lookup's time to a third of its error.  Pictures of a
-# hundredth of a second are not told apart by one: that is the ratio of the sums of nine, made by turns.
+# Fails if a corrected lookup takes more than four times the lookup's time to a third of its error, or if the light of
+# corrected pictures is more than 2 % off.  Pictures of a hundredth of a second are not told apart by one: that is the
+# ratio of the sums of nine, made by turns.
 
 set -euo pipefail
 
@@ -190,6 +191,7 @@ bounces()
         done
     done
     time_third "$@"
+    sum_light "$@"
 }
 
 # about_third FILE: the two N of the corrected lookup between which it has a third of the lookup's error, or the nearest
@@ -219,6 +221,27 @@ time_third()
     awk '
         FNR == NR { sum[$1] += $2; count[$1]++; next }
         $1 != "traced" && $2 in sum { print $1, $2, sum[$2] / count[$2], $4 }' turns.txt "$1" >"third-$1"
+}
+
+# light_of NAME: the sum of a picture's mean red, green and blue where mask.exr is white
+light_of()
+{
+    oiiotool "$1.exr" mask.exr --mul -d float -o metal.exr >/dev/null && oiiotool --stats metal.exr |
+        awk '/Stats Avg:/ { print $3 + $4 + $5 }'
+}
+
+# sum_light FILE SCENE WIDTH LOOKUP CORRECTED TRACED WORD: light-FILE, the light of eight pictures corrected by five rays,
+# each with other noise, over that of the truth
+sum_light()
+{
+    local k
+
+    for k in 1 2 3 4 5 6 7 8; do
+        render light.log "$2" light.exr "+W$3" "+H$side" -A +L. "Declare=Mode=$5" "Declare=$7=5" \
+            "Declare=Shift=0.000000$k"
+        light_of light
+    done >lights.txt
+    awk -v true="$(light_of every)" '{ sum += $1 } END { print sum / NR / true }' lights.txt >"light-$1"
 }
 
 workshop()
@@ -353,6 +376,7 @@ what_it_takes()
     awk -v third="$third" -v takes="$takes" -v traced="$traced" -v lookup="$lookup" 'BEGIN {
         printf "%.1f %%, a third of the lookup'\''s error, takes %.1f x its time corrected, %.1f x traced\n",
             100 * third, takes, traced / lookup }'
+    echo "five rays leave $(<"light-$1.txt") of the light, the mean of eight pictures"
 }
 
 single
@@ -386,13 +410,17 @@ equal_error 'one ray a pixel' single.txt
 equal_error 'four rays a pixel' four.txt
 by_samples
 echo "(Theirs traces a path for each sample; \`samples N' reads N texels at each point, and no ray of the camera more.)"
-late=
+late= off=
 for scene in bunny workshop; do
     report "$scene" "$scene.txt"
     what_it_takes "$scene"
     if awk -v takes="$takes" 'BEGIN { exit !(takes + 0 > 4 || takes + 0 <= 0) }'; then
         late="$late${late:+ and }$takes x in the $scene scene"
     fi
+    if awk -v light="$(<"light-$scene.txt")" 'BEGIN { exit !(light + 0 < 0.98 || light + 0 > 1.02) }'; then
+        off="$off${off:+ and }$(<"light-$scene.txt") of it in the $scene scene"
+    fi
 done
 echo "$top_builddir/table1.json $top_builddir/table1.svg"
+[ -z "$off" ] || die "five rays should leave as much light as there is, within 2 %, and leave $off"
 [ -z "$late" ] || die "a third of the lookup's error should take no more than 4 x its time, and takes $late"

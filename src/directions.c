@@ -28,6 +28,9 @@ void pe_directions_begin(const pe_surface *surface, const double direction[3], c
     }
     directions->o[2] = fmax(directions->o[2], PE_HORIZON);
     directions->lambda = viewer.lambda;
+    directions->visible = 0;
+    if (surface->ndf.kind == PE_NDF_BECKMANN || surface->ndf.kind == PE_NDF_GGX)
+        directions->visible = 1 / (1 + pe_ndf_lambda(&surface->ndf, directions->o));
     pe_viewer_offsets(seed, o, directions->offsets);
 }
 
@@ -84,14 +87,13 @@ double pe_directions_draw(const pe_directions *d, int k, int count, double w[3],
 
 double pe_directions_density(const pe_directions *d, const double w[3])
 {
-    const pe_ndf *ndf = &d->surface.ndf;
     double h[3] = { d->o[0] + pe_dot(d->t, w), d->o[1] + pe_dot(d->b, w), d->o[2] + pe_dot(d->n, w) }, density;
 
+    if (!(h[2] > 0))
+        return 0;
     pe_normalize(h, h);
-    density = pe_ndf_evaluate(ndf, h) / 4;
-    if (ndf->kind == PE_NDF_BECKMANN || ndf->kind == PE_NDF_GGX)
-        return density / (d->o[2] * (1 + pe_ndf_lambda(ndf, d->o)));
-    return density * h[2] / pe_dot(d->o, h);
+    density = pe_ndf_evaluate(&d->surface.ndf, h) / 4;
+    return d->visible > 0 ? density * d->visible / d->o[2] : density * h[2] / pe_dot(d->o, h);
 }
 
 /* ---- one alone ---- */

@@ -17,7 +17,7 @@ enum { LEVELS_MAX = 7, FREQUENCY_MAX = 1 << (LEVELS_MAX - 1) };
 #define TEXELS_AT_LEAST 3.0 /* to a vertex, at the equator */
 
 /* How large a footprint through a level is, in vertices: its light is spread to them, and between them again. */
-#define VERTICES 1.6
+#define VERTICES 2.0
 
 typedef struct level {
     pe_geodesic *sphere;
@@ -26,7 +26,8 @@ typedef struct level {
 
 struct pe_mipmap {
     const pe_env *env;
-    double texel_sr, first_sr; /* how large footprints are: of the environment, at its equator, and of the first level */
+    double texel_sr; /* how large footprints are: the environment's own, at its equator, */
+    double first_sr; /* and those through the first level; through each of the others four of the one before */
     int count;
     level levels[LEVELS_MAX]; /* the finest first */
 };
@@ -109,10 +110,11 @@ static pe_status make_level(const pe_env *env, const level *finer, int frequency
 
 static pe_status make_levels(const pe_env *env, pe_mipmap *m, pe_error *error)
 {
+    double texel_sr = 2 * M_PI / env->width * M_PI / env->height;
     pe_status status = PE_OK;
 
     for (int f = FREQUENCY_MAX; f >= 1 && status == PE_OK; f /= 2)
-        if (f == 1 || vertex_sr(f) > TEXELS_AT_LEAST * m->texel_sr) {
+        if (f == 1 || vertex_sr(f) > TEXELS_AT_LEAST * texel_sr) {
             const level *finer = m->count > 0 ? &m->levels[m->count - 1] : NULL;
 
             status = make_level(env, finer, f, &m->levels[m->count++], error);
@@ -129,7 +131,6 @@ pe_status pe_mipmap_make(const pe_env *env, pe_mipmap **out, pe_error *error)
     if (!m)
         return pe_fail_memory(error, "the footprints of an environment");
     m->env = env;
-    m->texel_sr = 2 * M_PI / env->width * M_PI / env->height;
     status = pe_env_shrink(env, sqrt(vertex_sr(FREQUENCY_MAX) / TEXELS_AT_LEAST), &small, error);
     if (status == PE_OK)
         status = make_levels(small ? small : env, m, error);
@@ -139,7 +140,7 @@ pe_status pe_mipmap_make(const pe_env *env, pe_mipmap **out, pe_error *error)
         return status;
     }
     m->first_sr = VERTICES * 4 * M_PI / pe_geodesic_count(m->levels[0].sphere);
-    m->texel_sr = fmin(m->texel_sr, m->first_sr / TEXELS_AT_LEAST);
+    m->texel_sr = fmin(2 * M_PI / env->width * M_PI / env->height, m->first_sr / TEXELS_AT_LEAST);
     *out = m;
     return PE_OK;
 }
@@ -168,25 +169,33 @@ static void add_level(const level *l, const double direction[3], double share, d
             rgb[c] += share * weights[k] * (double)l->rgb[vertices[k]][c];
 }
 
-/* Between the environment, where a footprint is a texel, and the levels, which go by fours, by the logarithm of the
- * footprint. */
+/* The share of the finer of two footprints in one between them that shows a single texel as bright as it should: by
+ * their inverses. */
+static double share_of_finer(double finer_sr, double coarser_sr, double sr)
+{
+    return (1 / sr - 1 / coarser_sr) / (1 / finer_sr - 1 / coarser_sr);
+}
+
 void pe_mipmap_lookup(const pe_mipmap *m, const double direction[3], double solid_angle_sr, double rgb[3])
 {
-    double at = log2(solid_angle_sr / m->first_sr) / 2, share;
-    int k;
+    double texel_sr = m->texel_sr * sqrt(fmax(1 - direction[1] * direction[1], 0)), level_sr = m->first_sr, share;
+    int k = 0;
 
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (at < 0) {
-        share = fmin(2 * at / log2(m->texel_sr / m->first_sr), 1);
+    if (solid_angle_sr < m->first_sr) {
+        share = solid_angle_sr > texel_sr ? share_of_finer(texel_sr, m->first_sr, solid_angle_sr) : 1;
         pe_env_lookup(m->env, direction, rgb);
         pe_scale(share, rgb, rgb);
         if (share < 1)
             add_level(&m->levels[0], direction, 1 - share, rgb);
         return;
     }
-    k = at < m->count - 1 ? (int)at : m->count - 1;
-    share = k < m->count - 1 ? at - k : 0;
-    add_level(&m->levels[k], direction, 1 - share, rgb);
-    if (share > 0)
-        add_level(&m->levels[k + 1], direction, share, rgb);
+    while (k < m->count - 1 && 4 * level_sr <= solid_angle_sr) {
+        level_sr *= 4;
+        k++;
+    }
+    share = k < m->count - 1 ? share_of_finer(level_sr, 4 * level_sr, solid_angle_sr) : 1;
+    add_level(&m->levels[k], direction, share, rgb);
+    if (share < 1)
+        add_level(&m->levels[k + 1], direction, 1 - share, rgb);
 }

@@ -61,6 +61,7 @@ int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count
 
     for (int i = 0; i < count; i++)
         somewhere = somewhere && is_somewhere(&bodies[i]);
+    occluders->finished = false;
     if (!somewhere) {
         occluders->everywhere = true;
         return 1;
@@ -94,6 +95,9 @@ int pe_occluders_add(pe_occluders *occluders, const pe_convex *bodies, int count
 
 int pe_occluders_finish(pe_occluders *occluders)
 {
+    free(occluders->nodes);
+    occluders->nodes = NULL;
+    occluders->node_count = 0;
     occluders->finished = pe_occluders_tree(occluders);
     return occluders->finished;
 }

@@ -448,6 +448,7 @@ typedef struct pe_directions {
     pe_surface surface;
     double t[3], b[3], n[3]; /* the tangent frame */
     double o[3], lambda;     /* the viewer in it, and what of the surface he does not see */
+    double visible;          /* what of it he does, where visible normals have a formula; else 0 */
     double offsets[2];       /* of the points that directions are drawn with */
 } pe_directions;
 
@@ -461,7 +462,8 @@ void pe_directions_begin(const pe_surface *surface, const double direction[3], c
  * and GGX).  Where share is 0 nothing comes from w, which may lie below the surface. */
 double pe_directions_draw(const pe_directions *directions, int k, int count, double w[3], double share[3]);
 
-/* The density per steradian with which `w`, unit, is drawn. */
+/* The density per steradian with which pe_directions_draw draws `w`, unit, those below the surface, too; 0 where it
+ * draws none. */
 double pe_directions_density(const pe_directions *directions, const double w[3]);
 
 /* One direction alone: the mean of share L(w) over many points is what is reflected.  With phong or a table, and

@@ -332,8 +332,16 @@ static void test_unknown(void)
     ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "a lobe is not clear before all is told");
     need(pe_occluders_finish(occluders), "no memory");
     ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_CLEAR, "but then");
+    ball.centre[2] = 5;
+    need(pe_occluders_add(occluders, &ball, 1), "no memory");
+    ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "nor after one more");
+    need(pe_occluders_finish(occluders), "no memory");
+    ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "which is in the way");
+    pe_occluders_free(occluders);
+
+    occluders = pe_occluders_create();
     ball.centre[0] = NAN;
-    need(pe_occluders_add(occluders, &ball, 1) && pe_occluders_finish(occluders), "no memory");
+    need(occluders != NULL && pe_occluders_add(occluders, &ball, 1) && pe_occluders_finish(occluders), "no memory");
     ok(pe_lobe_sight(occluders, origin, up, up, 0.1) == PE_SIGHT_UNKNOWN, "nor where a ball is nowhere");
     pe_occluders_free(occluders);
 }
