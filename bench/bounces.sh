@@ -230,8 +230,8 @@ light_of()
         awk '/Stats Avg:/ { print $3 + $4 + $5 }'
 }
 
-# sum_light FILE SCENE WIDTH LOOKUP CORRECTED TRACED WORD: light-FILE, the light of eight pictures corrected by five rays,
-# each with other noise, over that of the truth
+# sum_light FILE SCENE WIDTH LOOKUP CORRECTED TRACED WORD: light-FILE, the light of eight pictures corrected by five
+# rays, each with other noise, over that of the truth
 sum_light()
 {
     local k

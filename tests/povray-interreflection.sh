@@ -167,8 +167,8 @@ for rays_and_bound in '5 0.015' '16 0.015'; do
 done
 
 # What hides the dark half of the sky, or the bright one, hides that: few rays tell, and rough metal is neither too dark
-# on a floor nor too bright below a ceiling.  (By the share of rays that meet nothing, and its damped covariance with the
-# light in them: 0.92 above a floor, and 0.08 of what is above a ceiling leaks in.)
+# on a floor nor too bright below a ceiling.  (By the share of rays that meet nothing, and its damped covariance with
+# the light in them: 0.92 above a floor, and 0.08 of what is above a ceiling leaks in.)
 black='pigment { rgb 0 } finish { ambient 0 diffuse 0 } no_image translate Place'
 few() # THINGS: `truth`, with 5 rays `lit`, and by the lookup alone `sky`
 {

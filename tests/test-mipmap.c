@@ -1,6 +1,6 @@
 /* test-mipmap.c - claims: through footprints of any size an environment shows what a sum over its texels says, the same
- * at a pole as on the equator; no light is lost; footprints grow evenly; those of a texel are the environment itself; one
- * colour stays that, whatever the size. */
+ * at a pole as on the equator; no light is lost; footprints grow evenly; those of a texel are the environment itself;
+ * one colour stays that, whatever the size. */
 #include "prefenv.h"
 #include "reference.h"
 #include "tap.h"

@@ -325,7 +325,7 @@ static double shell(double scale, double place, double side)
 static void test_unknown(void)
 {
     static const double origin[3] = { 0 }, up[3] = { 0, 0, 1 };
-    pe_convex ball = { .kind = PE_CONVEX_BALL, .centre = { 0, 0, -5 }, .axes = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+    pe_convex ball = { PE_CONVEX_BALL, { 0, 0, -5 }, { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, { 0, 0 }, 0 };
     pe_occluders *occluders = pe_occluders_create();
 
     need(occluders != NULL && pe_occluders_add(occluders, &ball, 1), "no memory");
