@@ -31,7 +31,8 @@ light()
 
 printf '%-12s %6s %8s %8s %8s %8s\n' environment alpha lookup N=5 N=16 N=64
 for name in courtyard studio; do
-    oiiotool "$PREFENV_DATA/hdri/$name.exr" --resize 256x128 -d float --compression none -o environment.exr >/dev/null ||
+    hdri=$PREFENV_DATA/hdri/$name.exr
+    oiiotool "$hdri" --resize 256x128 -d float --compression none -o environment.exr >/dev/null ||
         die 'oiiotool could not shrink the environment; see above'
     for alpha in 0.1 0.3; do
         truth=$(light -4096 0)

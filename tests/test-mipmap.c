@@ -51,8 +51,8 @@ static void test_truth(void)
     pe_mipmap *mipmap = mipmap_of(env);
     unsigned state = 11;
 
-    for (double sr = 0.003; sr < 0.5; sr *= 5) {
-        double squares = 0, truths = 0, bound = sr < 0.1 ? 0.11 : 0.18;
+    for (int step = 0; step < 4; step++) {
+        double sr = 0.003 * pow(5, step), squares = 0, truths = 0, bound = sr < 0.1 ? 0.11 : 0.18;
 
         for (int k = 0; k < 200; k++) {
             double w[3], rgb[3], truth;
@@ -78,8 +78,8 @@ static void test_light_kept(void)
     double mean[3], worst = 0;
 
     pe_env_mean(env, mean);
-    for (double sr = 1e-4; sr < 1; sr *= 3) {
-        double sum = 0, count = 40000;
+    for (int step = 0; step < 9; step++) {
+        double sr = 1e-4 * pow(3, step), sum = 0, count = 40000;
 
         for (int k = 0; k < (int)count; k++) {
             double z = 1 - (2 * k + 1) / count, phi = 2.399963229728653 * k, w[3], rgb[3];
@@ -116,9 +116,9 @@ static void test_footprints(void)
 {
     double least = 1e9, most = 0;
 
-    for (double sr = 0.002; sr < 0.5; sr *= 2.1)
+    for (int step = 0; step < 8; step++)
         for (int y = 0; y < 128; y += y < 4 ? 1 : 31) {
-            double found = footprint_of_texel(512, y, sr) / sr;
+            double sr = 0.002 * pow(2.1, step), found = footprint_of_texel(512, y, sr) / sr;
 
             least = least_of(least, found);
             most = worst_of(most, found);
@@ -127,9 +127,9 @@ static void test_footprints(void)
        least, most);
     least = 1e9;
     most = 0;
-    for (double sr = 1e-5; sr < 0.002; sr *= 2.5)
+    for (int step = 0; step < 6; step++)
         for (int y = 10; y < 600; y += 245) {
-            double found = footprint_of_texel(2048, y, sr) / sr;
+            double sr = 1e-5 * pow(2.5, step), found = footprint_of_texel(2048, y, sr) / sr;
 
             least = least_of(least, found);
             most = worst_of(most, found);
@@ -144,8 +144,8 @@ static void test_even(void)
     double w[3] = { 0.6, 0.48, 0.64 }, last[3], rgb[3], worst = 0;
 
     pe_mipmap_lookup(mipmap, w, 1e-5, last);
-    for (double sr = 1e-5; sr < 20; sr *= 1.01) {
-        pe_mipmap_lookup(mipmap, w, sr, rgb);
+    for (int step = 0; step < 1459; step++) {
+        pe_mipmap_lookup(mipmap, w, 1e-5 * pow(1.01, step), rgb);
         worst = worst_of(worst, fabs(rgb[0] / last[0] - 1));
         memcpy(last, rgb, sizeof last);
     }
